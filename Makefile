@@ -1,0 +1,67 @@
+# wrapit: from a line drawing to wire-wrapped jewellery. `make` lists what can be made.
+SHELL := /bin/bash
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+CONFIGS := $(wildcard configs/*.yaml)
+PIECES := $(CONFIGS:configs/%.yaml=build/%)
+JOBS ?= auto
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help setup demo all check format lint types imports test golden bench docs clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z%\/-]+:.*## / {printf "  %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+setup: $(READY) ## create .venv with wrapit and its tools
+
+$(READY): pyproject.toml requirements.lock
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "wrapit needs Python 3.11 or newer; run: make PYTHON=python3.11 $(MAKECMDGOALS)" >&2; exit 1; }
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c requirements.lock -e '.[dev]'
+	@touch $@
+
+demo: $(READY) ## build the butterfly from its bitmap and say where the files are
+	@$(BIN)/wrapit build configs/butterfly.yaml -o build/butterfly --force
+	@echo && echo "The butterfly is in build/butterfly; open build/butterfly/guide.html in a browser." \
+	  && ls -1 build/butterfly
+
+all: $(PIECES) ## build every config (use -j)
+
+# One report per piece; make rebuilds it when the config, its drawing or wrapit itself changed.
+build/%: build/%/report.json ;
+
+.SECONDEXPANSION:
+build/%/report.json: configs/%.yaml $$(wildcard configs/$$*.png configs/$$*.svg configs/$$*.json) $(READY) $(shell find wrapit -name '*.py')
+	$(BIN)/wrapit build $< -o $(@D)
+
+check: lint types imports ## every gate: lint, format, types, import arrows
+
+format: $(READY) ## format the code
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(READY)
+	$(BIN)/mypy
+
+imports: $(READY)
+	$(BIN)/lint-imports
+
+test: $(READY) ## the whole test suite
+	$(BIN)/python -m pytest -n $(JOBS) tests
+
+golden: $(READY) ## write the golden numbers anew, to be looked at before they are committed
+	$(BIN)/python -m tests.golden
+
+bench: $(READY) ## measure accuracy and speed
+	$(BIN)/python -m tests.bench
+
+clean: ## remove what was built (keeps .venv)
+	rm -rf build .pytest_cache .ruff_cache .mypy_cache .hypothesis .import_linter_cache

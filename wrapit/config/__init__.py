@@ -1,0 +1,23 @@
+"""The YAML config: frozen models, loading with exact places of mistakes, JSON schema."""
+
+from wrapit.config.decomposition import DecompositionConfig, WeightsConfig
+from wrapit.config.jig import JigConfig
+from wrapit.config.loading import load_config
+from wrapit.config.locking import lock_text, schema
+from wrapit.config.plate import PlateConfig
+from wrapit.config.root import Config, GuideConfig, WireConfig
+from wrapit.config.tracing import TracingConfig
+
+__all__ = [
+    "Config",
+    "DecompositionConfig",
+    "GuideConfig",
+    "JigConfig",
+    "PlateConfig",
+    "TracingConfig",
+    "WeightsConfig",
+    "WireConfig",
+    "load_config",
+    "lock_text",
+    "schema",
+]

@@ -1,0 +1,1 @@
+"""Divides a drawing into few, smooth, well-connected wires."""

@@ -1,0 +1,91 @@
+"""A decomposition: at each junction, which segment ends continue into one another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from wrapit.drawing.model import Drawing
+
+SolverName = Literal["exact", "annealing"]
+NO_MATE = -1
+
+
+class Traversal(NamedTuple):
+    """One segment as a wire runs along it."""
+
+    segment: int
+    reversed: bool
+
+
+@dataclass(frozen=True)
+class Trail:
+    """A walk that repeats no segment (the paper's Eulerian path); one trail is one wire.
+
+    `closed` trails end where they start; the wire is left open there.
+    """
+
+    traversals: tuple[Traversal, ...]
+    closed: bool
+
+
+@dataclass(frozen=True)
+class Transition:
+    """One trail crossing one junction between two half-edges."""
+
+    junction: int
+    arriving: int
+    leaving: int
+    bend_angle_rad: float
+
+
+@dataclass(frozen=True, eq=False)
+class Decomposition:
+    """`mate[h]` is the half-edge that the wire on half-edge h continues into, or NO_MATE at a wire end.
+
+    Segment e has half-edges 2e (its start) and 2e + 1 (its end).
+    """
+
+    drawing: Drawing
+    mate: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Weights:
+    """The weights of the energy; `E = N + λs·bends + λr·weak wires + λb·bridges` (paper, eq. 1 to 4)."""
+
+    smoothness: float = 0.1
+    robustness: float = 0.9
+    bridges: float = 0.1
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The terms of the energy, unweighted, and the weighted total."""
+
+    complexity: int
+    smoothness_rad: float
+    robustness: int
+    bridges: int
+    total: float
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A decomposition with its trails and what is known about its quality.
+
+    `trails` are in wire order. `lower_bound` is proven (None when the solver proves none);
+    `doubled` are segments that a wire runs along twice; `bridges_used` are bridge segments in use.
+    """
+
+    decomposition: Decomposition
+    trails: tuple[Trail, ...]
+    energy: Energy
+    weights: Weights
+    solver: SolverName
+    seed: int
+    iterations: int
+    lower_bound: float | None = None
+    optimal: bool = False
+    bridges_used: tuple[int, ...] = ()
+    doubled: tuple[int, ...] = ()

@@ -1,0 +1,17 @@
+"""Planar curves: Béziers, exact B-splines, fitting, arc length, curvature."""
+
+from wrapit.geometry.arrays import FloatArray, IntArray, locked, unit
+from wrapit.geometry.bezier import BezierChain, joined, straight
+from wrapit.geometry.bspline import BSpline, from_chain
+
+__all__ = [
+    "BSpline",
+    "BezierChain",
+    "FloatArray",
+    "IntArray",
+    "from_chain",
+    "joined",
+    "locked",
+    "straight",
+    "unit",
+]

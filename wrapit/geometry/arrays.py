@@ -1,0 +1,24 @@
+"""Write-locked arrays: what flows between stages can't be changed by accident."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray: TypeAlias = NDArray[np.float64]
+IntArray: TypeAlias = NDArray[np.int64]
+
+
+def locked(values: ArrayLike) -> FloatArray:
+    """A private, write-locked copy as float64."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def unit(vector: FloatArray) -> FloatArray:
+    """The vector at length one (zero stays zero); works on (2,) and (n, 2)."""
+    norm = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=norm > 0)

@@ -1,0 +1,134 @@
+"""Chains of planar cubic Béziers: the shape of one segment of a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from wrapit.geometry.arrays import FloatArray, locked, unit
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
+_NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
+
+
+@dataclass(frozen=True, eq=False)
+class BezierChain:
+    """n cubic Béziers, each starting exactly where the one before ends; `points` has shape (n, 4, 2).
+
+    Raises ValueError for another shape, for numbers that are not finite, or for gaps.
+    """
+
+    points: FloatArray
+
+    def __post_init__(self) -> None:
+        points = locked(self.points)
+        if points.ndim != 3 or points.shape[1:] != (4, 2) or not len(points):
+            raise ValueError(f"a Bézier chain has shape (n, 4, 2), not {points.shape}")
+        if not np.isfinite(points).all():
+            raise ValueError("a Bézier chain has finite coordinates")
+        if not np.array_equal(points[1:, 0], points[:-1, 3]):
+            raise ValueError("each Bézier starts where the one before ends")
+        object.__setattr__(self, "points", points)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def start(self) -> FloatArray:
+        """First point, (2,)."""
+        return self.points[0, 0]
+
+    @property
+    def end(self) -> FloatArray:
+        """Last point, (2,)."""
+        return self.points[-1, 3]
+
+    @cached_property
+    def start_tangent(self) -> FloatArray:
+        """Unit direction of travel at the start, (2,)."""
+        return _leaving(self.points.reshape(-1, 2))
+
+    @cached_property
+    def end_tangent(self) -> FloatArray:
+        """Unit direction of travel at the end, (2,)."""
+        return -_leaving(self.points.reshape(-1, 2)[::-1])
+
+    @cached_property
+    def lengths(self) -> FloatArray:
+        """Arc length of each Bézier, (n,)."""
+        quarters = np.concatenate([part for half in split(self.points, 0.5) for part in split(half, 0.5)])
+        speed = np.linalg.norm(derivative(quarters, _NODES), axis=-1)
+        return (speed @ _WEIGHTS).reshape(4, -1).sum(axis=0)
+
+    @property
+    def length(self) -> float:
+        """Arc length of the chain."""
+        return float(self.lengths.sum())
+
+    def reversed(self) -> BezierChain:
+        """The same curve travelled the other way."""
+        return BezierChain(self.points[::-1, ::-1])
+
+    def mapped(self, matrix: ArrayLike, offset: ArrayLike = (0.0, 0.0)) -> BezierChain:
+        """The chain under x → matrix · x + offset."""
+        return BezierChain(self.points @ np.asarray(matrix, dtype=np.float64).T + np.asarray(offset))
+
+    def sampled(self, step: float) -> FloatArray:
+        """Points (m, 2) along the chain, both ends included, at most about `step` apart."""
+        parts = [self.start[None]]
+        for cubic, length in zip(self.points, self.lengths, strict=True):
+            count = max(1, int(np.ceil(length / step)))
+            parts.append(evaluate(cubic[None], np.arange(1, count + 1) / count)[0])
+        return np.concatenate(parts)
+
+
+def joined(chains: Iterable[BezierChain]) -> BezierChain:
+    """One chain from chains that follow one another exactly."""
+    return BezierChain(np.concatenate([chain.points for chain in chains]))
+
+
+def straight(start: ArrayLike, end: ArrayLike) -> BezierChain:
+    """A straight line as one cubic Bézier with even speed."""
+    a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    return BezierChain(np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])[None])
+
+
+def evaluate(points: FloatArray, t: FloatArray) -> FloatArray:
+    """Points at parameters `t` (m,) of cubics (n, 4, 2): (n, m, 2)."""
+    s = 1 - t
+    basis = np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3])
+    return np.einsum("kt,nkd->ntd", basis, points)
+
+
+def derivative(points: FloatArray, t: FloatArray) -> FloatArray:
+    """First derivatives at parameters `t` (m,) of cubics (n, 4, 2): (n, m, 2)."""
+    s = 1 - t
+    basis = np.stack([s**2, 2 * s * t, t**2])
+    return 3 * np.einsum("kt,nkd->ntd", basis, np.diff(points, axis=1))
+
+
+def second_derivative(points: FloatArray, t: FloatArray) -> FloatArray:
+    """Second derivatives at parameters `t` (m,) of cubics (n, 4, 2): (n, m, 2)."""
+    return 6 * np.einsum("kt,nkd->ntd", np.stack([1 - t, t]), np.diff(points, n=2, axis=1))
+
+
+def split(points: FloatArray, t: float) -> tuple[FloatArray, FloatArray]:
+    """De Casteljau: the cubics (n, 4, 2) before and after parameter t."""
+    left, right, level = [points[:, 0]], [points[:, 3]], points
+    while level.shape[1] > 1:
+        level = (1 - t) * level[:, :-1] + t * level[:, 1:]
+        left.append(level[:, 0])
+        right.append(level[:, -1])
+    return np.stack(left, axis=1), np.stack(right[::-1], axis=1)
+
+
+def _leaving(control: FloatArray) -> FloatArray:
+    """Direction from the first control point to the first one apart from it."""
+    apart = control - control[0]
+    far = np.linalg.norm(apart, axis=1)
+    index = int(np.argmax(far > 1e-9 * max(1.0, float(far.max()))))
+    return unit(apart[index])

@@ -1,0 +1,106 @@
+"""One exact B-spline from a chain of Béziers: no refit, corners only where the chain has them."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from wrapit.geometry.arrays import FloatArray, locked
+from wrapit.geometry.bezier import BezierChain
+
+# A joint pole nearer than this (mm) to the place that one smooth spline gives it is dropped.
+SMOOTH_JOINT_MM = 1e-8
+
+
+@dataclass(frozen=True, eq=False)
+class BSpline:
+    """A clamped planar B-spline; `poles` (n, 2), `knots` (n + degree + 1,) with every repetition."""
+
+    degree: int
+    poles: FloatArray
+    knots: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "poles", locked(self.poles))
+        object.__setattr__(self, "knots", locked(self.knots))
+        if len(self.knots) != len(self.poles) + self.degree + 1:
+            raise ValueError("a B-spline has poles + degree + 1 knots")
+        if (np.diff(self.knots) < 0).any():
+            raise ValueError("the knots of a B-spline don't fall")
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """First and last parameter."""
+        return float(self.knots[0]), float(self.knots[-1])
+
+    @cached_property
+    def breaks(self) -> FloatArray:
+        """Distinct knots, (m,)."""
+        return np.unique(self.knots)
+
+    def at(self, u: FloatArray) -> FloatArray:
+        """Points at parameters (m,): (m, 2)."""
+        return self._scipy(u)  # type: ignore[no-any-return]
+
+    def derivative(self, u: FloatArray, order: int = 1) -> FloatArray:
+        """Derivatives at parameters (m,): (m, 2)."""
+        return self._scipy.derivative(order)(u)  # type: ignore[no-any-return]
+
+    def curvature(self, u: FloatArray) -> FloatArray:
+        """Signed curvature at parameters (m,), positive where the curve turns left."""
+        d, dd = self.derivative(u), self.derivative(u, 2)
+        speed = np.linalg.norm(d, axis=1)
+        return (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
+
+    @cached_property
+    def _scipy(self) -> Any:
+        from scipy.interpolate import BSpline as ScipyBSpline
+
+        return ScipyBSpline(self.knots, self.poles, self.degree)
+
+
+def from_chain(chain: BezierChain) -> BSpline:
+    """The chain as ONE clamped cubic B-spline with the same points, exactly.
+
+    Knot steps follow the ratio of the derivatives at each joint, so a joint with one tangent (G1)
+    becomes a double knot (C1) and its pole disappears; triple knots stay only at corners.
+    """
+    steps, smooth = _knot_steps(chain.points)
+    poles = [chain.points[0, 0], chain.points[0, 1], chain.points[0, 2]]
+    knots = [0.0] * 4
+    at = 0.0
+    for index in range(1, len(chain)):
+        at += steps[index - 1]
+        knots += [at] * (2 if smooth[index - 1] else 3)
+        if not smooth[index - 1]:
+            poles.append(chain.points[index, 0])
+        poles += [chain.points[index, 1], chain.points[index, 2]]
+    poles.append(chain.end)
+    knots += [at + steps[-1]] * 4
+    return BSpline(3, np.array(poles), np.array(knots))
+
+
+def _knot_steps(points: FloatArray) -> tuple[list[float], list[bool]]:
+    """Knot step of each Bézier, and for each joint whether one tangent passes it."""
+    steps = [_chord(points[0])]
+    smooth = []
+    for before, after in itertools.pairwise(points):
+        arriving, leaving = np.linalg.norm(before[3] - before[2]), np.linalg.norm(after[1] - after[0])
+        if min(arriving, leaving) > 1e-6:
+            step = steps[-1] * float(leaving / arriving)
+            pole = (step * before[2] + steps[-1] * after[1]) / (step + steps[-1])
+            if np.linalg.norm(pole - after[0]) <= SMOOTH_JOINT_MM:
+                steps.append(step)
+                smooth.append(True)
+                continue
+        steps.append(_chord(after))
+        smooth.append(False)
+    return steps, smooth
+
+
+def _chord(cubic: FloatArray) -> float:
+    return max(float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum()), 1e-6)

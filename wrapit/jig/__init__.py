@@ -1,0 +1,1 @@
+"""The jig: planned without a kernel, then built as exact solids."""

@@ -1,0 +1,1 @@
+"""Turns trails into wires: exact centrelines, turns, lengths, connections."""

@@ -1,0 +1,65 @@
+"""Wires: the metal, as exact curves with their turns and connections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from wrapit.decomposition.model import Traversal
+from wrapit.geometry import BSpline, FloatArray
+
+Side = Literal["left", "right", "both"]
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A span of a wire that the jig has to hold, by arc length.
+
+    `inside` is the side (seen in the direction of travel) where the wall stands; long straight
+    stretches are held on both sides.
+    """
+
+    wire: str
+    start_mm: float
+    end_mm: float
+    inside: Side
+    max_curvature_per_mm: float
+
+
+@dataclass(frozen=True)
+class Binding:
+    """A place where this wire is tied to others."""
+
+    junction: int
+    at_mm: float
+    others: tuple[str, ...]
+    point: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Wire:
+    """One wire; its centreline is one exact cubic B-spline in the plane, in mm.
+
+    `segment_spans_mm[i]` is where traversal i starts and ends along the wire.
+    """
+
+    name: str
+    centreline: BSpline
+    diameter_mm: float
+    length_mm: float
+    cut_length_mm: float
+    traversals: tuple[Traversal, ...]
+    segment_spans_mm: tuple[tuple[float, float], ...]
+    turns: tuple[Turn, ...]
+    bindings: tuple[Binding, ...]
+    min_bend_radius_mm: float
+    max_deviation_from_drawing_mm: float
+    layers: int
+    mass_g: float
+    closed: bool
+    colour: str
+
+    @property
+    def ends(self) -> FloatArray:
+        """First and last point, (2, 2)."""
+        return self.centreline.poles[[0, -1]]
