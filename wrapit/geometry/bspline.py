@@ -44,11 +44,11 @@ class BSpline:
 
     def at(self, u: FloatArray) -> FloatArray:
         """Points at parameters (m,): (m, 2)."""
-        return self._scipy(u)  # type: ignore[no-any-return]
+        return self._scipy(u)
 
     def derivative(self, u: FloatArray, order: int = 1) -> FloatArray:
         """Derivatives at parameters (m,): (m, 2)."""
-        return self._scipy.derivative(order)(u)  # type: ignore[no-any-return]
+        return self._scipy.derivative(order)(u)
 
     def curvature(self, u: FloatArray) -> FloatArray:
         """Signed curvature at parameters (m,), positive where the curve turns left."""

@@ -58,6 +58,8 @@ class Wire:
     mass_g: float
     closed: bool
     colour: str
+    lifts: tuple[tuple[float, float], ...] = ()
+    """Height of the centreline over the lowest layer, (at_mm, z_mm) with smooth steps between; empty is flat."""
 
     @property
     def ends(self) -> FloatArray:

@@ -1,0 +1,94 @@
+"""The jig: first a plan in the plane (no kernel), then solids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from shapely import Polygon
+
+from wrapit.geometry import Region
+from wrapit.wires.model import Turn
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """A wall blank: its outline before the wires' channels are cut from it exactly."""
+
+    turns: tuple[Turn, ...]
+    outline: Polygon
+    height_mm: float
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A through hole for wire ends."""
+
+    centre: tuple[float, float]
+    diameter_mm: float
+    wires: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """The base plate."""
+
+    outline: Region
+    thickness_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class JigPlan:
+    """Which walls, holes and plate a jig for these wires has."""
+
+    name: str
+    wires: tuple[str, ...]
+    walls: tuple[Wall, ...]
+    holes: tuple[Hole, ...]
+    plate: Plate
+
+
+@dataclass(frozen=True)
+class TurnSupport:
+    """Share of one turn's arc length that has wall at the right distance on the inside."""
+
+    turn: Turn
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A named, coloured solid; `solid` is a kernel shape that only `wrapit.kernel` looks into."""
+
+    name: str
+    solid: Any
+    colour: str
+
+
+@dataclass(frozen=True, eq=False)
+class Jig:
+    """One printable body with its proof: what was measured on the exact result.
+
+    `walls` are the exact wall faces after cutting, `plate` the plate's face with its holes.
+    """
+
+    name: str
+    wires: tuple[str, ...]
+    part: Part
+    walls: tuple[Region, ...]
+    plate: Region
+    plan: JigPlan
+    valid: bool
+    solids: int
+    volume_mm3: float
+    support: tuple[TurnSupport, ...]
+    min_wall_to_wire_mm: float | None
+    size_mm: tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class JigSet:
+    """All jigs of a piece; `split` says whether the wires share one."""
+
+    split: Literal["single", "per-wire"]
+    jigs: tuple[Jig, ...]
