@@ -6,10 +6,15 @@ from wrapit.geometry.bspline import BSpline, from_chain
 from wrapit.geometry.loops import Arc, Edge, Line, Loop, Region
 
 __all__ = [
+    "Arc",
     "BSpline",
     "BezierChain",
+    "Edge",
     "FloatArray",
     "IntArray",
+    "Line",
+    "Loop",
+    "Region",
     "from_chain",
     "joined",
     "locked",

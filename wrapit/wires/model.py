@@ -59,7 +59,7 @@ class Wire:
     closed: bool
     colour: str
     lifts: tuple[tuple[float, float], ...] = ()
-    """Height of the centreline over the lowest layer, (at_mm, z_mm) with smooth steps between; empty is flat."""
+    """Height of the centreline over the lowest layer, (at_mm, z_mm) smooth between; empty is flat."""
 
     @property
     def ends(self) -> FloatArray:
