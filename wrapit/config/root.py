@@ -26,9 +26,7 @@ class WireConfig(Block):
 
     metal: MetalName = "copper"
     temper: Temper = "dead soft"
-
-    tail_margin: Length = 50.0
-    """Extra wire to hold and bend, both ends together (at least 15 % of the length)."""
+    """How hard the metal is drawn; soft wire bends more tightly."""
 
 
 class GuideConfig(Block):
@@ -39,6 +37,9 @@ class GuideConfig(Block):
 
     binding_turns: int = Field(default=5, ge=1, le=50)
     """Turns of binding wire at each connection."""
+
+    margin: Length = 50.0
+    """Extra wire to hold and bend, both ends of a wire together (at least 15 % of its length)."""
 
 
 class Config(Block):

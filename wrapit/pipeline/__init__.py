@@ -1,0 +1,1 @@
+"""Composes the stages: config and drawing in, a folder of files out."""

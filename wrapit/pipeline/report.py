@@ -1,0 +1,131 @@
+"""`report.json`: every number, finding and artifact of a build, without timings, so that it stays the same."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from wrapit import __version__
+from wrapit.config import Config, lock_text
+from wrapit.decomposition.model import Solution
+from wrapit.drawing.model import Drawing
+from wrapit.errors import Finding
+from wrapit.jig.model import JigSet
+from wrapit.pipeline.folder import Artifact
+from wrapit.wires.model import Wire
+
+FORMAT = "wrapit-report/1"
+
+
+def head(config: Config, drawing_sha256: str) -> dict[str, Any]:
+    """What identifies a build."""
+    return {
+        "format": FORMAT,
+        "name": config.name,
+        "version": __version__,
+        "config_sha256": hashlib.sha256(lock_text(config).encode()).hexdigest(),
+        "drawing_sha256": drawing_sha256,
+    }
+
+
+def drawing_numbers(drawing: Drawing, bridges_offered: int) -> dict[str, Any]:
+    """The `drawing` block."""
+    low, high = drawing.bounds_mm
+    strokes = [segment for segment in drawing.segments if segment.kind == "stroke"]
+    return {
+        "junctions": len(drawing.junctions),
+        "odd_junctions": drawing.odd_junctions,
+        "segments": len(strokes),
+        "length_mm": _mm(drawing.length_mm),
+        "size_mm": [_mm(value) for value in high - low],
+        "bridges_offered": bridges_offered,
+    }
+
+
+def decomposition_numbers(solution: Solution, fewest_possible_wires: int) -> dict[str, Any]:
+    """The `decomposition` block."""
+    energy = dataclasses.asdict(solution.energy)
+    return {
+        "solver": solution.solver,
+        "seed": solution.seed,
+        "energy": {key: round(value, 9) for key, value in energy.items()},
+        "weights": dataclasses.asdict(solution.weights),
+        "lower_bound": None if solution.lower_bound is None else round(solution.lower_bound, 9),
+        "optimal": solution.optimal,
+        "bridges_used": list(solution.bridges_used),
+        "doubled": list(solution.doubled),
+        "iterations": solution.iterations,
+        "fewest_possible_wires": fewest_possible_wires,
+    }
+
+
+def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
+    """The `wires` block."""
+    return [
+        {
+            "name": wire.name,
+            "length_mm": _mm(wire.length_mm),
+            "cut_length_mm": _mm(wire.cut_length_mm),
+            "turns": len(wire.turns),
+            "connections": len(wire.bindings),
+            "min_bend_radius_mm": _mm(wire.min_bend_radius_mm),
+            "max_deviation_from_drawing_mm": _mm(wire.max_deviation_from_drawing_mm),
+            "layers": wire.layers,
+            "mass_g": round(wire.mass_g, 4),
+        }
+        for wire in wires
+    ]
+
+
+def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
+    """The `jig` block, over all jigs of the piece."""
+    support = [each for jig in jigs.jigs for each in jig.support]
+    by_wire = {
+        wire.name: _support([each for each in support if each.turn.wire == wire.name]) for wire in wires
+    }
+    weakest = min(by_wire, key=lambda name: (by_wire[name], name))
+    distances = [jig.min_wall_to_wire_mm for jig in jigs.jigs if jig.min_wall_to_wire_mm is not None]
+    return {
+        "kind": "printed",
+        "split": jigs.split,
+        "jigs": len(jigs.jigs),
+        "solids": sum(jig.solids for jig in jigs.jigs),
+        "valid": all(jig.valid for jig in jigs.jigs),
+        "volume_mm3": round(sum(jig.volume_mm3 for jig in jigs.jigs), 3),
+        "walls": sum(len(jig.walls) for jig in jigs.jigs),
+        "holes": sum(len(jig.plan.holes) for jig in jigs.jigs),
+        "turn_support": _support(support),
+        "turn_support_by_wire": by_wire,
+        "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
+        "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
+        "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
+    }
+
+
+def _support(support: Sequence[Any]) -> float:
+    """Supported share of the turns' arc length; a wire without turns needs none."""
+    length = sum(each.turn.end_mm - each.turn.start_mm for each in support)
+    held = sum(each.share * (each.turn.end_mm - each.turn.start_mm) for each in support)
+    return round(held / length, 4) if length else 1.0
+
+
+def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:
+    """The `findings` block, each said once."""
+    return [dataclasses.asdict(finding) for finding in dict.fromkeys(findings)]
+
+
+def artifact_list(artifacts: Sequence[Artifact]) -> list[dict[str, Any]]:
+    """The `artifacts` block."""
+    return [dataclasses.asdict(artifact) for artifact in artifacts]
+
+
+def to_json(document: dict[str, Any]) -> str:
+    """Readable JSON with a line end; refuses NaN, which JSON has no word for."""
+    return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _mm(value: float) -> float:
+    return round(float(value), 4)

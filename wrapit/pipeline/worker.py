@@ -1,0 +1,92 @@
+"""Runs kernel work in a process of its own: it can be stopped, and a crash there is an error here."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+import os
+import traceback
+from collections.abc import Callable, Sequence
+from multiprocessing.connection import Connection
+from types import TracebackType
+from typing import Any, Self, TypeVar
+
+from wrapit.errors import KernelError, WrapItError
+
+T = TypeVar("T")
+
+
+class Worker:
+    """A process that has the kernel loaded; entered early, it loads while other stages run.
+
+    `run` sends it one function of this package with arguments, all picklable.
+    """
+
+    def __init__(self, preload: Sequence[str] = ()) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._connection, theirs = context.Pipe()
+        self._process = context.Process(target=_serve, args=(theirs, tuple(preload)), daemon=True)
+        self._theirs = theirs
+
+    def __enter__(self) -> Self:
+        self._process.start()
+        self._theirs.close()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._stop()
+
+    def run(self, where: str, timeout_s: float, function: Callable[..., T], *arguments: Any) -> T:
+        """The function's result; its WrapItErrors come through.
+
+        Raises KernelError, naming `where`, when the process crashes or doesn't end in time.
+        """
+        try:
+            self._connection.send((function, arguments))
+            if not self._connection.poll(timeout_s):
+                self._stop()
+                raise KernelError(
+                    f"the solid modeller didn't finish within {timeout_s:.0f} s",
+                    where,
+                    "simplify the drawing there, or raise jig.time_limit",
+                )
+            succeeded, value = self._connection.recv()
+        except (EOFError, BrokenPipeError, ConnectionResetError):
+            self._process.join(5)
+            raise KernelError(
+                f"the solid modeller crashed (exit code {self._process.exitcode})",
+                where,
+                "change the size or simplify the drawing there; please report the drawing",
+            ) from None
+        if succeeded:
+            return value  # type: ignore[no-any-return]
+        if isinstance(value, WrapItError):
+            raise value
+        raise RuntimeError(value)
+
+    def _stop(self) -> None:
+        if self._process.is_alive():
+            self._process.terminate()
+            self._process.join(2)
+            if self._process.is_alive():
+                self._process.kill()
+        self._process.join()
+        self._connection.close()
+
+
+def _serve(connection: Connection, preload: Sequence[str]) -> None:
+    os.dup2(2, 1)  # the kernel's writers chat on stdout, which belongs to the report
+    for module in preload:
+        importlib.import_module(module)
+    while True:
+        try:
+            function, arguments = connection.recv()
+        except EOFError:
+            return
+        try:
+            answer: tuple[bool, Any] = (True, function(*arguments))
+        except WrapItError as error:
+            answer = (False, error)
+        except Exception:
+            answer = (False, traceback.format_exc())
+        connection.send(answer)

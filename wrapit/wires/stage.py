@@ -1,0 +1,97 @@
+"""The wires of a decomposition, ready to be bent."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wrapit.config import Config
+from wrapit.decomposition.model import Solution, Trail
+from wrapit.drawing.model import Drawing
+from wrapit.errors import Finding
+from wrapit.geometry import BezierChain, from_chain
+from wrapit.geometry.arclength import ArcLength
+from wrapit.materials import METALS, min_inner_bend_radius_mm
+from wrapit.wires.bindings import find_bindings
+from wrapit.wires.centreline import FOLD_RAD, Joined, join
+from wrapit.wires.lifts import lay_wires
+from wrapit.wires.model import Wire
+from wrapit.wires.palette import wire_colour
+from wrapit.wires.turns import find_turns
+
+CURVATURE_STEP_MM = 0.02
+MIN_MARGIN_SHARE = 0.15  # of the length, for holding and bending
+
+
+def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
+    """Each trail as one exact cubic B-spline with turns, lengths, connections and heights.
+
+    Corners tighter than the metal allows are rounded; findings name bends that can't be made.
+    """
+    drawing, wire = solution.decomposition.drawing, config.wire
+    radius_mm = min_inner_bend_radius_mm(wire.gauge, wire.temper) + wire.gauge / 2
+    joined = [join(_curves(drawing, trail), radius_mm) for trail in solution.trails]
+    names = [f"wire-{number:02d}" for number in range(1, len(joined) + 1)]
+    splines = [from_chain(each.chain) for each in joined]
+    bindings = find_bindings(drawing, solution.trails, names, [each.spans_mm for each in joined])
+    lifts = lay_wires(splines, wire.gauge)
+    findings: list[Finding] = []
+    wires = []
+    for index, (name, trail, each, spline) in enumerate(
+        zip(names, solution.trails, joined, splines, strict=True)
+    ):
+        turns, slight = find_turns(name, spline, config.jig)
+        lengths = ArcLength(spline)
+        min_radius_mm, tight = _tightest(name, each, lengths, radius_mm)
+        findings += [*tight, *slight]
+        length_mm = lengths.total_mm
+        margin_mm = max(config.guide.margin, MIN_MARGIN_SHARE * length_mm)
+        wires.append(
+            Wire(
+                name=name,
+                centreline=spline,
+                diameter_mm=wire.gauge,
+                length_mm=length_mm,
+                cut_length_mm=length_mm + margin_mm,
+                traversals=trail.traversals,
+                segment_spans_mm=each.spans_mm,
+                turns=turns,
+                bindings=bindings[index],
+                min_bend_radius_mm=min_radius_mm,
+                max_deviation_from_drawing_mm=max((c.deviation_mm for c in each.corners), default=0.0),
+                layers=1 + math.ceil(max((z for _, z in lifts[index]), default=0.0) / wire.gauge - 1e-3),
+                mass_g=METALS[wire.metal].mass_g(length_mm, wire.gauge),
+                closed=trail.closed,
+                colour=wire_colour(index),
+                lifts=lifts[index],
+            )
+        )
+    return tuple(wires), tuple(findings)
+
+
+def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:
+    curves = [(drawing.segments[step.segment].curve, step.reversed) for step in trail.traversals]
+    return [curve.reversed() if backwards else curve for curve, backwards in curves]
+
+
+def _tightest(
+    name: str, joined: Joined, lengths: ArcLength, allowed_mm: float
+) -> tuple[float, tuple[Finding, ...]]:
+    """Smallest bend radius of the centreline; a finding for each span that the metal doesn't take."""
+    at_mm = lengths.stations(CURVATURE_STEP_MM)
+    curvature = np.abs(lengths.spline.curvature(lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2)))
+    spans = np.flatnonzero(np.diff(np.r_[0, curvature > 1.01 / allowed_mm, 0])).reshape(-1, 2)
+    findings = [
+        Finding(
+            "warning",
+            "tight-bend",
+            f"{name} at {at_mm[(a + b) // 2]:.0f} mm",
+            f"the drawing asks for a bend of radius {1 / curvature[a:b].max():.2f} mm; "
+            f"this wire takes {allowed_mm:.2f} mm without damage",
+            "make the piece larger, or use thinner or softer wire",
+        )
+        for a, b in spans
+    ]
+    radius = 1 / max(float(curvature.max()), 1e-9)
+    return min(radius, *(c.radius_mm for c in joined.corners if c.bend_rad < FOLD_RAD), 1e6), tuple(findings)
