@@ -1,0 +1,116 @@
+"""Reading the DXF back finds closed contours, the same lengths, and the colours of the profile."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import ezdxf
+import ezdxf.path
+import numpy as np
+import pytest
+from shapely import LineString, Polygon
+
+from tests.exports.pieces_for_tests import arc_chain, eye
+from tests.exports.test_preview import PLATE, WALL
+from wrapit.exports.laser_profiles import PROFILES
+from wrapit.exports.plate_dxf import write_dxf
+from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
+from wrapit.jig.laser_engraving import plate_contours
+from wrapit.jig.laser_model import Contour
+
+
+def moon() -> Region:
+    """A wall between two arcs, one of them given as Béziers, with a line at its tip."""
+    outer = arc_chain((0, 0), 8.0, 0.0, math.pi)
+    inner = Arc((0, 0), 5.0, math.pi, -math.pi)
+    return Region(Loop((outer, Line((-8, 0), (-5, 0)), inner, Line((5, 0), (8, 0)))))
+
+
+def polygons(document: ezdxf.document.Drawing, layer: str) -> list[Polygon]:
+    found = []
+    for entity in document.modelspace().query(f'*[layer=="{layer}"]'):
+        path = ezdxf.path.make_path(entity)
+        assert path.start.isclose(path.end, abs_tol=1e-12), f"{entity} is open"
+        found.append(Polygon([(point.x, point.y) for point in path.flattening(1e-4)]))
+    return found
+
+
+def test_contours_come_back_closed_with_their_lengths(tmp_path: Path) -> None:
+    _, wires = eye()
+    path = tmp_path / "plate.dxf"
+    walls = [moon(), WALL]
+    write_dxf(path, plate_contours(PLATE, walls, wires))
+    document = ezdxf.readfile(path)
+    assert document.dxfversion == "AC1024"
+    assert (document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == (4, 1)
+    assert not document.audit().errors
+    outer = polygons(document, "CUT_OUTER")
+    inner = polygons(document, "CUT_INNER")
+    assert [polygon.length for polygon in outer] == pytest.approx([200.0])
+    lengths = sorted(polygon.length for polygon in inner)
+    assert lengths == pytest.approx(sorted([13 * math.pi + 6, 24.0, 2 * math.pi]), abs=1e-3)
+    assert max(polygon.area for polygon in inner) == pytest.approx(math.pi * (64 - 25) / 2, abs=1e-2)
+
+
+def test_order_colours_and_layers_follow_the_profile(tmp_path: Path) -> None:
+    _, wires = eye()
+    contours = plate_contours(PLATE, [WALL], wires)
+    for name, looks in PROFILES.items():
+        path = tmp_path / f"{name}.dxf"
+        write_dxf(path, reversed(contours), name)
+        document = ezdxf.readfile(path)
+        order = [entity.dxf.layer for entity in document.modelspace()]
+        layers = [looks[layer].name for layer in ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")]
+        assert [layers.index(layer) for layer in order] == sorted(layers.index(layer) for layer in order)
+        for entity in document.modelspace():
+            look = next(look for look in looks.values() if look.name == entity.dxf.layer)
+            assert (entity.dxf.color, entity.rgb) == (look.aci, look.rgb)
+            assert document.layers.get(look.name).rgb == look.rgb
+
+
+def test_curves_are_splines_in_bezier_form(tmp_path: Path) -> None:
+    write_dxf(tmp_path / "moon.dxf", [Contour("CUT_OUTER", moon().outer.edges)])
+    (spline,) = ezdxf.readfile(tmp_path / "moon.dxf").modelspace()
+    assert spline.dxftype() == "SPLINE"
+    assert spline.closed
+    knots = np.array(spline.knots)
+    _, counts = np.unique(knots, return_counts=True)
+    assert counts.tolist() == [4] + [3] * (len(counts) - 2) + [4]
+    assert len(spline.control_points) == 3 * (len(counts) - 1) + 1
+    assert np.array_equal(spline.control_points[0], spline.control_points[-1])
+
+
+def test_engraving_keeps_clear_of_cuts_and_is_drawn_once() -> None:
+    solution, wires = eye()
+    contours = plate_contours(PLATE, [WALL], wires)
+    engraved = [contour for contour in contours if contour.layer == "ENGRAVE"]
+    paths = [edge for contour in engraved for edge in contour.edges if isinstance(edge, BezierChain)]
+    wall = Polygon(WALL.outer.sampled(0.01))
+    lines = [LineString(path.sampled(0.05)) for path in paths]
+    assert all(line.distance(wall) > 0.4 for line in lines)
+    for a, b in itertools.combinations(lines, 2):
+        assert a.intersection(b.buffer(1e-3)).length < 0.1
+    # The bar runs through the wall, the stem is run along twice but engraved once.
+    drawn = sum(line.length for line in lines)
+    whole = sum(segment.curve.length for segment in solution.decomposition.drawing.segments)
+    assert drawn == pytest.approx(
+        whole
+        - wall.buffer(0.5)
+        .intersection(LineString(solution.decomposition.drawing.segments[5].curve.sampled(0.05)))
+        .length,
+        abs=0.2,
+    )
+
+
+def test_open_cuts_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="closed"):
+        write_dxf(tmp_path / "open.dxf", [Contour("CUT_OUTER", (Line((0, 0), (1, 0)),))])
+
+
+def test_bytes_repeat(tmp_path: Path) -> None:
+    contours = plate_contours(PLATE, [moon()], eye()[1])
+    write_dxf(tmp_path / "a.dxf", contours)
+    write_dxf(tmp_path / "b.dxf", contours)
+    assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()

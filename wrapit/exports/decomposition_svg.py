@@ -1,0 +1,104 @@
+"""The wires of a drawing at true size, coloured and numbered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from wrapit.decomposition.model import Solution
+from wrapit.exports.svgpage import FONT, attributes, bounds_with_labels, leader, page, text
+from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry.labels import Label, place_labels
+from wrapit.geometry.pieces import chain_of, piece
+from wrapit.geometry.svgframe import SvgFrame
+from wrapit.wires.model import Wire
+
+OUTLINE = "#222222"
+
+
+def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
+    """SVG in true millimetres: each wire in its colour and thickness, its number where it starts.
+
+    Wire ends have a dark ring; a segment that is run along twice is drawn as two lines side by side.
+    """
+    low, high = solution.decomposition.drawing.bounds_mm
+    size_mm = float(np.clip(np.max(high - low) / 18, 1.6, 3.5))
+    ink = np.vstack([chain_of(wire.centreline).sampled(0.3 * size_mm) for wire in wires])
+    labels = place_labels([(_digits(wire), wire.ends[:1]) for wire in wires], ink, size_mm)
+    low, high = bounds_with_labels(low, high, labels)
+    frame = SvgFrame.around(low, high, size_mm)
+    doubled = set(solution.doubled)
+    body = [f'<g font-family="{FONT}" font-weight="bold">']
+    seen: set[int] = set()
+    for wire in wires:
+        body += _strokes(wire, doubled, seen, frame)
+    for wire in wires:
+        body += _ends(wire, frame)
+    body += [*_numbers(wires, labels, frame, size_mm), "</g>"]
+    count = f"{len(wires)} wire{'s' if len(wires) != 1 else ''}"
+    lengths = ", ".join(f"{_digits(wire)}: {wire.length_mm:.0f} mm" for wire in wires)
+    return page(frame, f"The drawing divided into {count}", f"Lengths: {lengths}", body)
+
+
+def _strokes(wire: Wire, doubled: set[int], seen: set[int], frame: SvgFrame) -> list[str]:
+    """The wire as paths; `seen` collects the doubled segments drawn so far, by any wire."""
+    chain = chain_of(wire.centreline)
+    shapes: list[str] = []
+    plain_from = 0.0
+    for traversal, (start, end) in zip(wire.traversals, wire.segment_spans_mm, strict=True):
+        if traversal.segment not in doubled:
+            continue
+        if start - plain_from > 1e-6:
+            shapes.append(frame.path(piece(chain, plain_from, start)))
+        # Both passes are seen from the segment's own direction, so that they lie on opposite sides.
+        side = -1.0 if traversal.segment in seen else 1.0
+        seen.add(traversal.segment)
+        shift = side * (-1.0 if traversal.reversed else 1.0) * 0.55 * wire.diameter_mm
+        shapes.append(frame.polyline(_beside(piece(chain, start, end), shift)))
+        plain_from = end
+    if chain.length - plain_from > 1e-6:
+        shapes.append(frame.path(piece(chain, plain_from, chain.length)))
+    style = attributes(
+        stroke=wire.colour,
+        stroke_width=wire.diameter_mm * (0.6 if doubled else 0.8),
+        fill="none",
+        stroke_linecap="round",
+        stroke_linejoin="round",
+    )
+    drawn = [f"<path {attributes(d=shape)}/>" for shape in shapes]
+    return [f'<g id="{wire.name}" {style}>', *drawn, "</g>"]
+
+
+def _beside(chain: BezierChain, shift_mm: float) -> FloatArray:
+    points = chain.sampled(0.1)
+    along = unit(np.gradient(points, axis=0))
+    return points + shift_mm * np.column_stack([-along[:, 1], along[:, 0]])
+
+
+def _ends(wire: Wire, frame: SvgFrame) -> list[str]:
+    look = attributes(
+        r=0.55 * wire.diameter_mm, fill="#ffffff", stroke=OUTLINE, stroke_width=0.2 * wire.diameter_mm
+    )
+    ends = wire.ends[:1] if wire.closed else wire.ends
+    return [f'<circle {attributes(cx=x, cy=y)} {look} class="end"/>' for x, y in map(frame.at, ends)]
+
+
+def _numbers(wires: Sequence[Wire], labels: Sequence[Label], frame: SvgFrame, size_mm: float) -> list[str]:
+    shapes = []
+    for wire, label in zip(wires, labels, strict=True):
+        if label.leader:
+            shapes.append(leader(frame, label, OUTLINE, size_mm))
+        x, y = frame.at(label.centre)
+        half_x, half_y = label.half_size
+        box = attributes(
+            x=x - half_x, y=y - half_y, width=2 * half_x, height=2 * half_y, rx=0.3 * size_mm,
+            fill="#ffffff", stroke=wire.colour, stroke_width=0.14 * size_mm,
+        )  # fmt: skip
+        shapes += [f"<rect {box}/>", text(frame, label.centre, label.text, size_mm, fill=OUTLINE)]
+    return shapes
+
+
+def _digits(wire: Wire) -> str:
+    """`1` of `wire-01`."""
+    return wire.name.rpartition("-")[2].lstrip("0") or wire.name

@@ -1,0 +1,107 @@
+"""DXF for laser cutters: R2010, millimetres, one closed entity for each contour."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wrapit.errors import ExportError
+from wrapit.exports.contour_edges import as_bulges, as_chain, is_circle
+from wrapit.exports.laser_profiles import ORDER, PROFILES, Look, ProfileName
+from wrapit.geometry import Arc, BezierChain, Edge
+from wrapit.jig.laser_model import Contour
+
+if TYPE_CHECKING:
+    from ezdxf.layouts.layout import Modelspace
+
+
+def write_dxf(path: Path, contours: Iterable[Contour], profile: ProfileName = "lightburn") -> None:
+    """Write the contours as a laser cutter's DXF, in the order in which they are to be worked.
+
+    Contours with curves become one SPLINE in Bézier form (each interior knot three times), contours of
+    lines and arcs one polyline, circles a CIRCLE. Colours stand on entities and on layers, because some
+    programs ignore one of the two. The same contours give the same bytes.
+    Raises ExportError when the file can't be written or an audit of it finds a fault.
+    """
+    from ezdxf import units
+    from ezdxf.filemanagement import new
+
+    with _fixed_metadata():
+        document = new("R2010", units=units.MM)
+        document.header["$MEASUREMENT"] = 1
+        looks = PROFILES[profile]
+        for look in looks.values():
+            if look.name not in document.layers:
+                document.layers.add(look.name)
+            document.layers.get(look.name).color = look.aci
+            document.layers.get(look.name).rgb = look.rgb
+        space = document.modelspace()
+        for contour in in_order(contours):
+            _add(space, contour, looks[contour.layer])
+        _check(document, path)
+        try:
+            document.saveas(path)
+        except OSError as error:
+            raise ExportError(
+                f"the DXF can't be written ({error.strerror})", str(path), "check folder and disk"
+            ) from error
+
+
+def in_order(contours: Iterable[Contour]) -> list[Contour]:
+    """Sorted by the work of their layer, otherwise as they come."""
+    return sorted(contours, key=lambda contour: ORDER.index(contour.layer))
+
+
+def _add(space: Modelspace, contour: Contour, look: Look) -> None:
+    if contour.layer.startswith("CUT") and not contour.closed:
+        raise ValueError("what is cut is closed")
+    attributes: dict[str, Any] = {"layer": look.name, "color": look.aci, "true_color": _true_colour(look)}
+    edges, closed = contour.edges, contour.closed
+    if is_circle(edges) and isinstance(circle := edges[0], Arc):
+        space.add_circle(circle.centre, circle.radius_mm, attributes)
+    elif any(isinstance(edge, BezierChain) for edge in edges):
+        _add_spline(space, edges, attributes, closed=closed)
+    else:
+        space.add_lwpolyline(
+            as_bulges(edges, closed=closed), format="xyb", close=closed, dxfattribs=attributes
+        )
+
+
+def _add_spline(
+    space: Modelspace, edges: Sequence[Edge], attributes: dict[str, Any], *, closed: bool
+) -> None:
+    chain = as_chain(edges, closed=closed)
+    poles = [chain.start, *(point for cubic in chain.points for point in cubic[1:])]
+    spline = space.add_spline(dxfattribs={**attributes, "degree": 3})
+    spline.control_points = [(float(x), float(y), 0.0) for x, y in poles]
+    inner = [float(index) for index in range(1, len(chain)) for _ in range(3)]
+    spline.knots = [0.0] * 4 + inner + [float(len(chain))] * 4
+    # Planar; the closed flag says that it ends where it starts, its poles and knots say it exactly.
+    spline.dxf.flags = 8 | int(closed)
+
+
+def _true_colour(look: Look) -> int:
+    red, green, blue = look.rgb
+    return red << 16 | green << 8 | blue
+
+
+def _check(document: Any, path: Path) -> None:
+    audit = document.audit()
+    if audit.errors or audit.fixes:
+        faults = "; ".join(entry.message for entry in (*audit.errors, *audit.fixes))
+        raise ExportError(f"the DXF has faults: {faults}", str(path), "please report this drawing")
+
+
+@contextmanager
+def _fixed_metadata() -> Iterator[None]:
+    """Dates and identifiers that don't change from run to run, while one file is written."""
+    from ezdxf import options  # type: ignore[attr-defined]  # public, but not in __all__
+
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before

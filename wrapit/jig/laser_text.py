@@ -1,0 +1,53 @@
+"""Single-line lettering, as a laser engraves it in one stroke."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from wrapit.geometry import FloatArray, Line
+from wrapit.jig.laser_model import Contour
+
+# Capitals of the Hershey font fill three quarters of its full height.
+_CAPITAL = 0.75
+
+
+def text_size_mm(text: str, height_mm: float) -> tuple[float, float]:
+    """Width and height of a text whose capitals are `height_mm` tall."""
+    width, height = np.ptp(np.vstack(_strokes(text, height_mm)), axis=0)
+    return float(width), float(height)
+
+
+def engraved_text(text: str, centre: tuple[float, float], height_mm: float) -> tuple[Contour, ...]:
+    """The text around its centre, as open polylines on ENGRAVE (Hershey's simplex letters)."""
+    strokes = _strokes(text, height_mm)
+    points = np.vstack(strokes)
+    shift = np.array(centre) - (points.min(axis=0) + points.max(axis=0)) / 2
+    return tuple(_polyline(stroke + shift) for stroke in strokes)
+
+
+def _strokes(text: str, height_mm: float) -> list[FloatArray]:
+    from HersheyFonts import HersheyFonts  # type: ignore[import-untyped]  # ships no types
+
+    font = HersheyFonts()
+    font.load_default_font("futural")
+    font.normalize_rendering(height_mm / _CAPITAL)
+    strokes = [np.array(stroke) for stroke in font.strokes_for_text(text)]
+    drawn = [_distinct(stroke) for stroke in strokes]
+    drawn = [stroke for stroke in drawn if len(stroke) > 1]
+    if not drawn:
+        raise ValueError(f"nothing to engrave in {text!r}")
+    return drawn
+
+
+def _distinct(stroke: FloatArray) -> FloatArray:
+    keep = np.append(True, np.linalg.norm(np.diff(stroke, axis=0), axis=1) > 1e-6)
+    return stroke[keep]
+
+
+def _polyline(points: FloatArray) -> Contour:
+    edges = tuple(
+        Line((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))) for a, b in itertools.pairwise(points)
+    )
+    return Contour("ENGRAVE", edges)
