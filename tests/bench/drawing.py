@@ -1,0 +1,168 @@
+"""Accuracy of tracing over the corpus of real drawings with known centre lines, and its speed.
+
+Run as `python -m tests.bench.drawing [name …]`; the corpus is looked for in $WRAPIT_CORPUS and next to
+the checkout.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import TracingConfig
+from wrapit.drawing.model import Drawing
+from wrapit.drawing.stage import trace
+from wrapit.errors import WrapItError
+
+CORPUS = Path(os.environ.get("WRAPIT_CORPUS", Path(__file__).parents[3] / "shared" / "corpus"))
+SIZE_MM = 60.0
+
+
+def graph(drawing: Drawing, step_px: float = 0.5) -> dict[str, Any]:
+    """The drawing in pixels again, as the corpus writes graphs."""
+    frame = drawing.pixel_frame
+    if frame is None:
+        raise ValueError("the drawing was not traced from a bitmap")
+    origin = np.array(frame.origin_mm)
+
+    def pixels(points: np.ndarray[Any, Any]) -> list[list[float]]:
+        return ((points - origin) / frame.mm_per_px * [1, -1]).tolist()
+
+    return {
+        "vertices": pixels(np.array([junction.point for junction in drawing.junctions])),
+        "edges": [
+            [segment.start, segment.end, pixels(segment.curve.sampled(step_px * frame.mm_per_px))]
+            for segment in drawing.segments
+        ],
+    }
+
+
+def evaluator(corpus: Path = CORPUS) -> Any:
+    """The corpus's own `evaluate.py` as a module."""
+    spec = importlib.util.spec_from_file_location("corpus_evaluate", corpus / "evaluate.py")
+    if spec is None or spec.loader is None:
+        raise FileNotFoundError(corpus / "evaluate.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def pictures(corpus: Path = CORPUS) -> list[tuple[str, Path, dict[str, Any], dict[str, Any]]]:
+    """(kind, picture, truth, manifest entry) of each picture; kinds are clean, degraded, hard."""
+    listed = json.loads((corpus / "dev" / "manifest.json").read_text())
+    entries = listed if isinstance(listed, list) else listed.get("drawings", listed.get("items"))
+    entries = (
+        entries
+        if isinstance(entries, list)
+        else [e for v in listed.values() if isinstance(v, list) for e in v]
+    )
+    found = []
+    for entry in sorted(entries, key=lambda entry: entry["name"]):
+        name = entry["name"]
+        truth = json.loads((corpus / "dev" / entry["truth"]).read_text())
+        kind = "hard" if "hard" in entry["flags"] else "clean"
+        found.append((kind, corpus / "dev" / entry["image"], truth, entry))
+        for variant in sorted((corpus / "dev").glob(f"{name}@*")):
+            found.append(("degraded", variant, truth, entry))
+    return found
+
+
+def skeleton_time_s(path: Path) -> float:
+    """Seconds that thinning alone takes, the better of three."""
+    from PIL import Image
+    from skimage.morphology import skeletonize
+
+    mask = np.asarray(Image.open(path).convert("L")) < 128
+    times = []
+    for _ in range(3):
+        begin = time.perf_counter()
+        skeletonize(mask)
+        times.append(time.perf_counter() - begin)
+    return min(times)
+
+
+def measure(path: Path, truth: dict[str, Any], scorer: Any) -> dict[str, Any]:
+    """Scores of one picture, with `beziers`, `time_ratio` and perhaps `refused`."""
+    best, drawing = np.inf, None
+    try:
+        for _ in range(3):
+            begin = time.perf_counter()
+            drawing, _ = trace(path, TracingConfig(), SIZE_MM)
+            best = min(best, time.perf_counter() - begin)
+    except WrapItError as error:
+        return {"refused": str(error)}
+    assert drawing is not None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        scores = scorer.evaluate(graph(drawing), truth)
+    scores["beziers"] = sum(len(segment.curve) for segment in drawing.segments)
+    scores["time_ratio"] = best / skeleton_time_s(path)
+    scores["time_ms"] = best * 1e3
+    return scores
+
+
+COLUMNS = (
+    ("exact", "topology_exact"), ("match", "topology_matched"), ("J", "junctions"), ("J*", "junctions_truth"),
+    ("err sw", "junction_mean_error_sw"), ("deg", "junction_degree_correct"), ("mean", "mean_distance_sw"),
+    ("haus", "hausdorff_sw"), ("tan50", "tangent_error_deg_median"), ("tan95", "tangent_error_deg_p95"),
+    ("n", "beziers"), ("x", "time_ratio"), ("ms", "time_ms"),
+)  # fmt: skip
+
+
+def main(names: list[str]) -> None:
+    """Prints one row per picture and a summary per kind."""
+    if not CORPUS.exists():
+        print("no corpus found; set WRAPIT_CORPUS")
+        return
+    scorer = evaluator()
+    print(f"{'':34}" + "".join(f"{title:>8}" for title, _ in COLUMNS))
+    rows: dict[str, list[dict[str, Any]]] = {}
+    for kind, path, truth, entry in pictures():
+        if names and not any(name in path.stem or name == kind for name in names):
+            continue
+        scores = measure(path, truth, scorer)
+        scores["sharp"] = any(flag.startswith("sharp") for flag in entry["flags"])
+        rows.setdefault(kind, []).append(scores)
+        if "refused" in scores:
+            print(f"{path.stem:34} {scores['refused']}")
+        else:
+            print(f"{path.stem:34}" + "".join(f"{_cell(scores[key]):>8}" for _, key in COLUMNS))
+    for kind, scores_of_kind in rows.items():
+        print(_summary(kind, scores_of_kind))
+
+
+def _cell(value: Any) -> str:
+    if value is None or isinstance(value, bool):
+        return {None: "-", True: "yes", False: "NO"}[value]
+    return f"{value:.3f}" if isinstance(value, float) and value < 10 else f"{value:.0f}"
+
+
+def _summary(kind: str, rows: list[dict[str, Any]]) -> str:
+    def column(key: str, sharp: bool = True) -> list[float]:
+        return [float(row[key]) for row in rows if row.get(key) is not None and (sharp or not row["sharp"])]
+
+    def share(key: str) -> float:
+        return sum(column(key)) / len(rows)
+
+    return (
+        f"{kind:9} {len(rows):3}  exact {share('topology_exact'):.3f}  "
+        f"matched {share('topology_matched'):.3f}  "
+        f"junction median {np.median(column('junction_mean_error_sw')):.3f} sw  "
+        f"mean {np.mean(column('mean_distance_sw')):.4f} sw  "
+        f"Hausdorff {np.median(column('hausdorff_sw')):.3f} sw  "
+        f"tangent {np.median(column('tangent_error_deg_median', False)):.2f}° "
+        f"p95 {np.median(column('tangent_error_deg_p95', False)):.2f}°  "
+        f"Béziers {sum(column('beziers')):.0f}  time {np.median(column('time_ratio')):.1f} × skeletonize"
+    )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

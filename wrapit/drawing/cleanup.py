@@ -1,0 +1,115 @@
+"""What thinning leaves behind and nobody drew: spurs, split crossings, crumbs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wrapit.drawing.network import Network
+from wrapit.geometry import FloatArray
+
+
+class Radii:
+    """Half the width of the ink around any place: the distance to its edge."""
+
+    def __init__(self, pixels: FloatArray, distance: FloatArray) -> None:
+        from scipy.spatial import cKDTree
+
+        self._tree = cKDTree(pixels)
+        self._distance = distance
+
+    def __call__(self, point: FloatArray) -> float:
+        return float(self._distance[self._tree.query(point)[1]])
+
+
+def prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
+    """Drops side branches shorter than 1.4 times the ink's half width at their junction, shortest first."""
+    while True:
+        spurs = []
+        for strand, s in net.strands.items():
+            free = [net.degree(node) == 1 for node in (s.start, s.end)]
+            if free[0] == free[1]:
+                continue
+            node = s.end if free[0] else s.start
+            length = net.length(strand)
+            if length < 1.4 * max(radius(net.nodes[node]), width_px / 2):
+                spurs.append((length, strand, node))
+        if not spurs:
+            return
+        touched: set[int] = set()
+        for length, strand, node in sorted(spurs):
+            if node in touched or net.degree(node) < 3:
+                continue
+            touched.add(node)
+            s = net.strands[strand]
+            tip = s.start if s.end == node else s.end
+            net.note("spur", net.nodes[tip], length, "shorter than the stroke is wide")
+            net.drop_strand(strand)
+            if net.degree(node) == 2:
+                net.rejoin(node)
+        if not touched:
+            return
+        net.drop_lonely()
+
+
+def contract_short(net: Network, radius: Radii, share: float) -> None:
+    """Makes one node of two whose strand is shorter than `share` times the sum of their half widths."""
+    while True:
+        short = []
+        for strand, s in net.strands.items():
+            if s.start == s.end or min(net.degree(s.start), net.degree(s.end)) < 3:
+                continue
+            length = net.length(strand)
+            if length < share * (radius(net.nodes[s.start]) + radius(net.nodes[s.end])):
+                short.append((length, strand))
+        if not short:
+            return
+        _, strand = min(short)
+        s = net.strands[strand]
+        middle = (net.nodes[s.start] + net.nodes[s.end]) / 2
+        net.merge([s.start, s.end], middle)
+
+
+def drop_small_loops(net: Network, width_px: float) -> None:
+    """Drops loops around nothing: shorter than 2.2 stroke widths and starting and ending at one node."""
+    for strand, s in list(net.strands.items()):
+        if s.start == s.end and net.length(strand) < 2.2 * width_px:
+            net.note("loop", net.nodes[s.start], net.length(strand), "smaller than the stroke is wide")
+            net.drop_strand(strand)
+    net.drop_lonely()
+    net.rejoin_all()
+
+
+def keep_largest(net: Network) -> list[tuple[FloatArray, float]]:
+    """Keeps the connected piece with the longest strands; returns middle and length of each other one."""
+    group: dict[int, int] = {}
+    members: list[list[int]] = []
+    for seed in net.nodes:
+        if seed in group:
+            continue
+        queue, group[seed] = [seed], len(members)
+        for node in queue:
+            for strand, _ in net.ends_at(node):
+                s = net.strands[strand]
+                for other in (s.start, s.end):
+                    if other not in group:
+                        group[other] = len(members)
+                        queue.append(other)
+        members.append(queue)
+    if len(members) < 2:
+        return []
+    inside: list[list[int]] = [[] for _ in members]
+    for strand, s in net.strands.items():
+        inside[group[s.start]].append(strand)
+    lengths = [sum(net.length(strand) for strand in strands) for strands in inside]
+    best = int(np.argmax(lengths))
+    left_out = []
+    for index, strands in enumerate(inside):
+        if index == best:
+            continue
+        places = [net.path(strand) for strand in strands] or [net.nodes[members[index][0]][None]]
+        points = np.concatenate(places)
+        left_out.append(((points.min(axis=0) + points.max(axis=0)) / 2, lengths[index]))
+        for strand in strands:
+            net.drop_strand(strand)
+    net.drop_lonely()
+    return left_out

@@ -1,0 +1,149 @@
+"""The working graph of tracing: nodes and strands of points, in pixels, y down.
+
+It lives only inside `trace`; what leaves is a `Drawing`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from wrapit.geometry import FloatArray
+
+
+@dataclass(eq=False)
+class Strand:
+    """A chain of points (n, 2) between two nodes, without the nodes' own places."""
+
+    start: int
+    end: int
+    points: FloatArray
+
+
+@dataclass(frozen=True)
+class Change:
+    """One thing that clean-up did: what, where (pixels), how long, and why."""
+
+    what: str
+    at_px: tuple[float, float]
+    length_px: float
+    reason: str
+
+
+@dataclass(eq=False)
+class Network:
+    """Nodes (places) and strands by number; numbers are never used twice."""
+
+    nodes: dict[int, FloatArray] = field(default_factory=dict)
+    strands: dict[int, Strand] = field(default_factory=dict)
+    changes: list[Change] = field(default_factory=list)
+    _next: int = 0
+    _ends: dict[int, list[tuple[int, int]]] = field(default_factory=dict)
+
+    def add_node(self, point: FloatArray) -> int:
+        """Number of a new node."""
+        node, self._next = self._next, self._next + 1
+        self.nodes[node] = np.asarray(point, dtype=np.float64)
+        self._ends[node] = []
+        return node
+
+    def add_strand(self, start: int, end: int, points: FloatArray) -> int:
+        """Number of a new strand."""
+        strand, self._next = self._next, self._next + 1
+        self.strands[strand] = Strand(start, end, np.asarray(points, dtype=np.float64).reshape(-1, 2))
+        self._ends[start].append((strand, 0))
+        self._ends[end].append((strand, 1))
+        return strand
+
+    def ends_at(self, node: int) -> list[tuple[int, int]]:
+        """The strand ends at a node: (strand, 0) where it starts, (strand, 1) where it ends."""
+        return self._ends[node]
+
+    def degree(self, node: int) -> int:
+        """Number of strand ends at a node."""
+        return len(self._ends[node])
+
+    def path(self, strand: int) -> FloatArray:
+        """The strand's points with its nodes at both ends, (n + 2, 2)."""
+        s = self.strands[strand]
+        return np.vstack([self.nodes[s.start], s.points, self.nodes[s.end]])
+
+    def leaving(self, strand: int, end: int) -> FloatArray:
+        """The strand's points walked away from one of its ends."""
+        points = self.strands[strand].points
+        return points if end == 0 else points[::-1]
+
+    def length(self, strand: int) -> float:
+        """Length of the path of a strand."""
+        return polyline_length(self.path(strand))
+
+    def drop_strand(self, strand: int) -> None:
+        """Takes a strand away; its nodes stay."""
+        s = self.strands.pop(strand)
+        for node in {s.start, s.end}:
+            self._ends[node] = [end for end in self._ends[node] if end[0] != strand]
+
+    def drop_lonely(self) -> None:
+        """Takes nodes without strands away."""
+        for node in [node for node, ends in self._ends.items() if not ends]:
+            del self.nodes[node], self._ends[node]
+
+    def reroute(self, strand: int, end: int, node: int) -> None:
+        """Moves one end of a strand to another node."""
+        s = self.strands[strand]
+        old = s.start if end == 0 else s.end
+        self._ends[old].remove((strand, end))
+        self._ends[node].append((strand, end))
+        if end == 0:
+            s.start = node
+        else:
+            s.end = node
+
+    def merge(self, nodes: list[int], point: FloatArray) -> int:
+        """One node in place of several; strands that run only between them vanish."""
+        inner = {s for node in nodes for s, _ in self._ends[node]}
+        members = set(nodes)
+        for strand in sorted(inner):
+            s = self.strands[strand]
+            if s.start in members and s.end in members:
+                self.drop_strand(strand)
+        kept = nodes[0]
+        self.nodes[kept] = np.asarray(point, dtype=np.float64)
+        for node in nodes[1:]:
+            for strand, end in list(self._ends[node]):
+                self.reroute(strand, end, kept)
+            del self.nodes[node], self._ends[node]
+        return kept
+
+    def rejoin(self, node: int) -> int | None:
+        """One strand in place of the two that meet at a node of degree two; its number."""
+        ends = self._ends[node]
+        if len(ends) != 2 or ends[0][0] == ends[1][0]:
+            return None
+        (first, first_end), (second, second_end) = ends
+        a, b = self.strands[first], self.strands[second]
+        before = self.leaving(first, first_end)[::-1]
+        after = self.leaving(second, second_end)
+        start = a.end if first_end == 0 else a.start
+        end = b.end if second_end == 0 else b.start
+        points = np.vstack([before, self.nodes[node][None], after])
+        self.drop_strand(first)
+        self.drop_strand(second)
+        del self.nodes[node], self._ends[node]
+        return self.add_strand(start, end, points)
+
+    def rejoin_all(self) -> None:
+        """Rejoins at every node of degree two (a closed loop keeps its one node)."""
+        for node in [node for node in self.nodes if self.degree(node) == 2]:
+            self.rejoin(node)
+
+    def note(self, what: str, at_px: FloatArray, length_px: float, reason: str) -> None:
+        """Remembers what clean-up did."""
+        self.changes.append(Change(what, (float(at_px[0]), float(at_px[1])), float(length_px), reason))
+
+
+def polyline_length(points: FloatArray) -> float:
+    """Length of a chain of points (n, 2)."""
+    steps = np.diff(points, axis=0)
+    return float(np.sqrt((steps * steps).sum(axis=1)).sum())
