@@ -24,7 +24,7 @@ def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     try:
         config = Config.model_validate(_plain(data))
     except ValidationError as error:
-        raise _first_mistake(error, data, path) from None
+        raise _first_mistake(error, data, path, overrides) from None
     return config if config.name else config.model_copy(update={"name": path.stem})
 
 
@@ -97,11 +97,16 @@ def _plain(value: Any) -> Any:
     return value if value is None else str(value)
 
 
-def _first_mistake(error: ValidationError, data: dict[str, Any], path: Path) -> ConfigError:
+def _first_mistake(
+    error: ValidationError, data: dict[str, Any], path: Path, overrides: Sequence[str]
+) -> ConfigError:
     mistake = error.errors(include_url=False)[0]
     keys = _user_keys(mistake["loc"], data)
     dotted = ".".join(map(str, keys))
     problem, remedy = _explain(mistake, keys)
+    for override in overrides:
+        if f"{dotted}.".startswith(f"{override.partition('=')[0]}."):
+            return ConfigError(problem, f"--set {override}", remedy)
     return ConfigError(problem, f"{_position(data, keys, path)} {dotted}".rstrip(), remedy)
 
 

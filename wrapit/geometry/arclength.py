@@ -14,6 +14,7 @@ from wrapit.geometry.bspline import BSpline
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 _NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
+NEWTON_STEPS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +31,24 @@ class ArcLength:
 
     def parameter(self, at_mm: FloatArray) -> FloatArray:
         """Parameters (m,) at arc lengths (m,)."""
-        u, s = self._table
-        return np.interp(at_mm, s, u)
+        table_u, table_s = self._table
+        at_mm = np.clip(at_mm, 0.0, self.total_mm)
+        u = np.interp(at_mm, table_s, table_u)
+        for _ in range(NEWTON_STEPS):
+            speed = np.maximum(np.linalg.norm(self.spline.derivative(u), axis=1), 1e-9)
+            step = (self.length(u) - at_mm) / speed
+            piece = np.clip(np.searchsorted(table_s, at_mm, side="right") - 1, 0, len(table_u) - 2)
+            u = np.clip(u - step, table_u[piece], table_u[piece + 1])
+        return u
 
     def length(self, u: FloatArray) -> FloatArray:
         """Arc lengths (m,) at parameters (m,)."""
-        return np.interp(u, *self._table)
+        table_u, table_s = self._table
+        piece = np.clip(np.searchsorted(table_u, u, side="right") - 1, 0, len(table_u) - 2)
+        widths = u - table_u[piece]
+        inner = table_u[piece][:, None] + widths[:, None] * _NODES
+        speed = np.linalg.norm(self.spline.derivative(inner.ravel()), axis=1).reshape(-1, len(_NODES))
+        return table_s[piece] + (speed @ _WEIGHTS) * widths
 
     def stations(self, step_mm: float) -> FloatArray:
         """Arc lengths from 0 to the end, evenly spaced, about `step_mm` apart."""

@@ -67,12 +67,18 @@ def replaced_whole(target: Path) -> Iterator[Path]:
         partial = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".partial", dir=target.parent))
         partial.chmod(0o755)
     except OSError as error:
-        raise ExportError(f"can't write here ({error.strerror})", str(target.parent), "choose another folder with -o") from None
+        raise ExportError(
+            f"can't write here ({error.strerror})", str(target.parent), "choose another folder with -o"
+        ) from None
     try:
         yield partial
         _swap(partial, target)
     except OSError as error:
-        raise ExportError(f"can't write the files ({error.strerror})", str(target), "free space, or choose another folder with -o") from error
+        raise ExportError(
+            f"can't write the files ({error.strerror})",
+            str(target),
+            "free space, or choose another folder with -o",
+        ) from error
     finally:
         shutil.rmtree(partial, ignore_errors=True)
 

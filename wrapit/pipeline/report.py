@@ -1,4 +1,4 @@
-"""`report.json`: every number, finding and artifact of a build, without timings, so that it stays the same."""
+"""`report.json`: every number, finding and artifact of a build; no timings, so that it stays the same."""
 
 from __future__ import annotations
 

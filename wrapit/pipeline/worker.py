@@ -33,7 +33,9 @@ class Worker:
         self._theirs.close()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self._stop()
 
     def run(self, where: str, timeout_s: float, function: Callable[..., T], *arguments: Any) -> T:
@@ -59,7 +61,7 @@ class Worker:
                 "change the size or simplify the drawing there; please report the drawing",
             ) from None
         if succeeded:
-            return value  # type: ignore[no-any-return]
+            return value
         if isinstance(value, WrapItError):
             raise value
         raise RuntimeError(value)
@@ -87,6 +89,6 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             answer: tuple[bool, Any] = (True, function(*arguments))
         except WrapItError as error:
             answer = (False, error)
-        except Exception:
+        except Exception:  # noqa: BLE001  told to the parent with its traceback
             answer = (False, traceback.format_exc())
         connection.send(answer)

@@ -1,0 +1,27 @@
+"""Opens STEP files in FreeCAD, on a virtual screen."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Any
+
+SCRIPT = Path(__file__).with_name("freecad_tree.py")
+
+
+def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[str, list[dict[str, Any]]]:
+    """For each file the objects that FreeCAD shows: label, volume, colour, curves."""
+    seen = scratch / "seen.json"
+    environment = {
+        **os.environ,
+        "STEP_FILES": os.pathsep.join(map(str, files)),
+        "SEEN_JSON": str(seen),
+        "QTWEBENGINE_DISABLE_SANDBOX": "1",
+        "HOME": str(scratch),
+    }
+    command = [xvfb_run, "-a", freecad, str(SCRIPT)]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=300, check=False)
+    assert seen.is_file(), run.stdout + run.stderr
+    return json.loads(seen.read_text())

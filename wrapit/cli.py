@@ -1,0 +1,194 @@
+"""The command line: arguments in, exit code out. Everything heavy is imported inside the commands."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, NoReturn
+
+import typer
+
+from wrapit import __version__
+
+if TYPE_CHECKING:
+    from wrapit.pipeline.build import Build, Stage
+
+app = typer.Typer(
+    name="wrapit",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Turns a line drawing into wire-wrapped jewellery: wires, a jig that bends them, and the guide.",
+    epilog="Exit codes: 0 ok, 1 failure while building, 2 usage or config, "
+    "3 the drawing can't be made as asked.",
+)
+
+ConfigPath = Annotated[Path, typer.Argument(metavar="CONFIG", help="The piece's YAML config.")]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Change one key, for example size='50 mm'."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the report as one JSON document.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Say more; -vv shows tracebacks.")]
+
+
+def main() -> NoReturn:
+    """Entry point: every error becomes one line and the documented exit code."""
+    signal.signal(signal.SIGTERM, _terminated)
+    try:
+        app(standalone_mode=True)
+    except KeyboardInterrupt:
+        _say("interrupted; earlier files are untouched")
+        sys.exit(130)
+    except Exception as error:  # noqa: BLE001  the last line of defence: one line, not a traceback
+        sys.exit(_failed(error))
+    sys.exit(0)
+
+
+def _terminated(signum: int, frame: object) -> NoReturn:  # noqa: ARG001  the signature is Python's
+    sys.exit(128 + signum)
+
+
+def _failed(error: Exception) -> int:
+    from wrapit.errors import WrapItError
+
+    if "-vv" in sys.argv:
+        import traceback
+
+        traceback.print_exc()
+    if isinstance(error, WrapItError):
+        _say(f"error: {error}")
+        return error.exit_code
+    summary = " ".join(str(error).split())[-300:]
+    _say(f"error: unexpected ({type(error).__name__}: {summary}); run again with -vv and report it")
+    return 1
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"wrapit {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def build(
+    config: ConfigPath,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Default: build/<name>.")
+    ] = None,
+    overrides: Overrides = None,
+    until: Annotated[
+        str, typer.Option(metavar="STAGE", help="Stop after drawing, decomposition, wires, jig or exports.")
+    ] = "exports",
+    force: Annotated[bool, typer.Option("--force", help="Build even if nothing changed.")] = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    verbose: Verbose = 0,
+) -> None:
+    """Build a piece: drawing, wires, jig and guide."""
+    from wrapit.pipeline.build import build as run
+
+    stage = _stage(until)
+    result = _with_progress(
+        lambda progress: run(config, output, overrides or (), stage, force, progress), quiet or as_json
+    )
+    _show(result, as_json, quiet, verbose)
+
+
+@app.command()
+def check(
+    config: ConfigPath,
+    overrides: Overrides = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    verbose: Verbose = 0,
+) -> None:
+    """Say whether a piece can be made, and what to change; writes nothing."""
+    from wrapit.pipeline.build import check as run
+
+    result = _with_progress(lambda progress: run(config, overrides or (), progress), quiet or as_json)
+    _show(result, as_json, quiet, verbose)
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of the config."""
+    from wrapit.config import schema as config_schema
+
+    print(json.dumps(config_schema(), indent=1, ensure_ascii=False))
+
+
+@app.command()
+def materials() -> None:
+    """Print the metals and wire gauges that wrapit knows."""
+    from wrapit.materials import METALS, min_inner_bend_radius_mm
+    from wrapit.units import SWG_MM, awg_diameter_mm
+
+    print(f"{'metal':<18}{'density g/cm³':>14}{'E GPa':>8}   proof stress MPa (dead soft, half hard, hard)")
+    for metal in METALS.values():
+        stresses = ", ".join(f"{stress:g}" for stress in metal.proof_mpa.values())
+        print(f"{metal.name:<18}{metal.density_g_per_cm3:>14.2f}{metal.young_gpa:>8.0f}   {stresses}")
+    print(f"\n{'gauge':<9}{'mm':>6}   tightest inner bend of dead-soft wire, mm")
+    gauges = [(f"{n} AWG", awg_diameter_mm(n)) for n in (*range(12, 22, 2), 21, *range(22, 32, 2))]
+    for name, diameter in sorted(
+        [*gauges, *((f"swg{n}", mm) for n, mm in SWG_MM.items())], key=lambda g: -g[1]
+    ):
+        print(f"{name:<9}{diameter:>6.2f}   {min_inner_bend_radius_mm(diameter, 'dead soft'):.2f}")
+
+
+def _stage(name: str) -> Stage:
+    from wrapit.pipeline.build import STAGES
+
+    for stage in STAGES:
+        if stage == name:
+            return stage
+    raise typer.BadParameter(f"{name!r} is not one of {', '.join(STAGES)}", param_hint="--until")
+
+
+def _with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) -> Build:
+    if quiet or not sys.stderr.isatty():
+        return run(lambda stage: None)
+    from rich.console import Console
+
+    with Console(stderr=True).status("starting") as status:
+        return run(lambda stage: status.update(f"{stage} …"))
+
+
+def _show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
+    if as_json:
+        print(json.dumps({**result.report, "timings_s": result.timings_s}, ensure_ascii=False))
+        return
+    if quiet:
+        return
+    from wrapit.pipeline.summary import summary_lines
+
+    for finding in result.report["findings"]:
+        if verbose or finding["level"] != "note":
+            _say(
+                f"{finding['level']}: {finding['where']}: {finding['message']}; {finding['remedy']}".rstrip(
+                    "; "
+                )
+            )
+    for line in summary_lines(result):
+        print(line)
+    if verbose:
+        for stage, seconds in result.timings_s.items():
+            _say(f"{stage:<14}{seconds:7.2f} s")

@@ -1,0 +1,203 @@
+"""One command from a config to a folder of files."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final, Literal, get_args
+
+from wrapit.config import Config, load_config, lock_text
+from wrapit.decomposition.model import Solution
+from wrapit.drawing.model import Drawing
+from wrapit.errors import DrawingError, Finding
+from wrapit.jig.model import JigSet
+from wrapit.pipeline import report as reports
+from wrapit.pipeline.folder import REPORT, artifacts_in, check_target, replaced_whole, sha256
+from wrapit.pipeline.solids import PRELOAD, make_solids
+from wrapit.pipeline.worker import Worker
+from wrapit.wires.model import Wire
+
+Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
+STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Build:
+    """What a build made; `folder` is None when nothing was written."""
+
+    report: dict[str, Any]
+    timings_s: dict[str, float]
+    folder: Path | None
+    up_to_date: bool = False
+
+
+@dataclass
+class _Work:
+    """What the stages have made so far."""
+
+    config: Config
+    drawing_path: Path
+    until: Stage
+    progress: Progress
+    timings_s: dict[str, float] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)
+    drawing: Drawing | None = None
+    solution: Solution | None = None
+    wires: tuple[Wire, ...] = ()
+    jigs: JigSet | None = None
+    report: dict[str, Any] = field(default_factory=dict)
+
+    @contextlib.contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        self.progress(name)
+        start = time.perf_counter()
+        yield
+        self.timings_s[name] = round(time.perf_counter() - start, 4)
+
+    def reaches(self, stage: Stage) -> bool:
+        return STAGES.index(self.until) >= STAGES.index(stage)
+
+
+def build(
+    config_path: Path,
+    target: Path | None = None,
+    overrides: Sequence[str] = (),
+    until: Stage = "exports",
+    force: bool = False,
+    progress: Progress = lambda stage: None,
+) -> Build:
+    """Builds a piece into `target` (default `build/<name>`), unless what is there is already the same.
+
+    Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
+    """
+    work = _start(config_path, overrides, until, progress)
+    target = target if target is not None else Path("build") / work.config.name
+    check_target(target)
+    if not force and (earlier := _same_build(target, work)) is not None:
+        return Build(earlier, {}, target, up_to_date=True)
+    with replaced_whole(target) as folder:
+        _run(work, folder)
+        work.report["artifacts"] = reports.artifact_list(artifacts_in(folder))
+        work.report["findings"] = reports.findings_list(work.findings)
+        (folder / REPORT).write_text(reports.to_json(work.report), encoding="utf-8")
+    return Build(work.report, work.timings_s, target)
+
+
+def check(config_path: Path, overrides: Sequence[str] = (), progress: Progress = lambda stage: None) -> Build:
+    """Runs every stage up to the jig and writes nothing."""
+    work = _start(config_path, overrides, "jig", progress)
+    _run(work, None)
+    work.report["findings"] = reports.findings_list(work.findings)
+    return Build(work.report, work.timings_s, None)
+
+
+def _start(config_path: Path, overrides: Sequence[str], until: Stage, progress: Progress) -> _Work:
+    config = load_config(config_path, overrides)
+    drawing_path = config_path.parent / config.drawing
+    if not drawing_path.is_file():
+        raise DrawingError(
+            "no such drawing" if not drawing_path.exists() else "the drawing is not a file",
+            str(drawing_path),
+            f"`drawing:` in {config_path.name} is relative to the config",
+        )
+    work = _Work(config, drawing_path, until, progress)
+    work.report.update(reports.head(config, sha256(drawing_path)), until=until)
+    return work
+
+
+def _same_build(target: Path, work: _Work) -> dict[str, Any] | None:
+    """The report of an earlier build of the same input, if every file it names is still as written."""
+    try:
+        earlier = json.loads((target / REPORT).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return None
+    if any(earlier.get(key) != value for key, value in work.report.items()):
+        return None
+    whole = all(
+        (path := target / artifact["path"]).is_file() and sha256(path) == artifact["sha256"]
+        for artifact in earlier.get("artifacts", [])
+    )
+    return earlier if whole else None
+
+
+def _run(work: _Work, folder: Path | None) -> None:
+    with contextlib.ExitStack() as stack:
+        worker = stack.enter_context(Worker(PRELOAD)) if work.reaches("jig") else None
+        _trace(work, folder)
+        if work.reaches("decomposition"):
+            _decompose(work, folder)
+        if work.reaches("wires"):
+            _draw_wires(work, folder)
+        if worker is not None:
+            _build_jig(work, worker, folder)
+    if work.reaches("exports") and folder is not None:
+        _export(work, folder)
+    if folder is not None:
+        _write(folder / "config.lock.yaml", lock_text(work.config))
+
+
+def _trace(work: _Work, folder: Path | None) -> None:
+    with work.stage("drawing"):
+        from wrapit.drawing.files import drawing_json
+        from wrapit.drawing.stage import trace
+        from wrapit.exports.drawing_svg import drawing_svg
+
+        work.drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
+        work.findings += findings
+        work.report["drawing"] = reports.drawing_numbers(work.drawing, 0)
+        if folder is not None:
+            _write(folder / "drawing.json", drawing_json(work.drawing))
+            _write(folder / "drawing.svg", drawing_svg(work.drawing))
+
+
+def _decompose(work: _Work, folder: Path | None) -> None:
+    assert work.drawing is not None
+    with work.stage("decomposition"):
+        from wrapit.decomposition.files import decomposition_json
+        from wrapit.decomposition.graph import fewest_possible_wires, graph_of
+        from wrapit.decomposition.stage import decompose
+
+        work.solution, findings = decompose(work.drawing, work.config.decomposition)
+        work.findings += findings
+        fewest = fewest_possible_wires(graph_of(work.drawing))
+        work.report["decomposition"] = reports.decomposition_numbers(work.solution, fewest)
+        if folder is not None:
+            _write(folder / "decomposition.json", decomposition_json(work.solution))
+
+
+def _draw_wires(work: _Work, folder: Path | None) -> None:
+    assert work.solution is not None
+    with work.stage("wires"):
+        from wrapit.exports.decomposition_svg import decomposition_svg
+        from wrapit.wires.stage import draw_wires
+
+        work.wires, findings = draw_wires(work.solution, work.config)
+        work.findings += findings
+        work.report["wires"] = reports.wire_numbers(work.wires)
+        if folder is not None:
+            _write(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
+
+
+def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
+    with work.stage("jig"):
+        limit_s = 120 + 60 * len(work.wires)
+        files = folder if work.reaches("exports") else None
+        work.jigs, findings = worker.run(
+            f"{work.config.name}: jig", limit_s, make_solids, work.wires, work.config, files
+        )
+        work.findings += findings
+        work.report["jig"] = reports.jig_numbers(work.jigs, work.wires)
+
+
+def _export(work: _Work, folder: Path) -> None:
+    with work.stage("exports"):
+        ...
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8", newline="\n")

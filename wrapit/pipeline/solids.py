@@ -1,0 +1,60 @@
+"""What runs in the kernel's process: the jig's solids, and the files that need them."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wrapit.config import Config
+from wrapit.errors import Finding
+from wrapit.jig.model import Jig, JigSet
+from wrapit.wires.model import Wire
+
+if TYPE_CHECKING:
+    from wrapit.kernel.files import FilePart
+
+PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
+
+
+def make_solids(
+    wires: tuple[Wire, ...], config: Config, folder: Path | None
+) -> tuple[JigSet, tuple[Finding, ...]]:
+    """The jigs, built and checked; their files in `folder`. The result holds no kernel shapes."""
+    from wrapit.jig.stage import build_jig
+
+    jigs, findings = build_jig(wires, config.jig)
+    if folder is not None:
+        _write(jigs, wires, config, folder)
+    bare = tuple(
+        dataclasses.replace(jig, part=dataclasses.replace(jig.part, solid=None)) for jig in jigs.jigs
+    )
+    return dataclasses.replace(jigs, jigs=bare), findings
+
+
+def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) -> None:
+    from wrapit.kernel.files import write_3mf, write_step, write_stl
+
+    if "step" in config.outputs:
+        write_step(folder / "wires.step", f"{config.name} wires", [_wire_part(wire) for wire in wires])
+        write_step(folder / "jig.step", f"{config.name} jig", [_jig_part(jig) for jig in jigs.jigs])
+    for jig in jigs.jigs:
+        stem = jig.name if len(jigs.jigs) > 1 else "jig"
+        if "stl" in config.outputs:
+            write_stl(folder / f"{stem}.stl", [jig.part.solid], config.jig.stl_tolerance)
+        if "3mf" in config.outputs:
+            write_3mf(folder / f"{stem}.3mf", [_jig_part(jig)])
+
+
+def _jig_part(jig: Jig) -> FilePart:
+    from wrapit.kernel.files import FilePart
+
+    return FilePart(jig.part.name, jig.part.solid, jig.part.colour)
+
+
+def _wire_part(wire: Wire) -> FilePart:
+    from wrapit.kernel.files import FilePart
+    from wrapit.kernel.sweeps import round_wire
+
+    solid, centreline = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name)
+    return FilePart(wire.name, solid, wire.colour, (centreline,))

@@ -1,0 +1,31 @@
+"""What a person reads after a build."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from wrapit.pipeline.build import Build
+
+
+def summary_lines(result: Build) -> Iterator[str]:
+    """A few lines: the drawing, the wires with their cut lengths, the jig, and where the files are."""
+    report = result.report
+    drawing = report["drawing"]
+    width, height = drawing["size_mm"]
+    yield f"{report['name']}: {drawing['segments']} segments, {width:.0f} × {height:.0f} mm"
+    if "decomposition" in report:
+        energy, optimal = report["decomposition"]["energy"], report["decomposition"]["optimal"]
+        proof = ", proven best" if optimal else ""
+        yield f"{_count(energy['complexity'], 'wire')}{proof}"
+    for wire in report.get("wires", []):
+        yield f"  {wire['name']}: cut {wire['cut_length_mm']:.0f} mm, {_count(wire['turns'], 'turn')}"
+    if "jig" in report:
+        jig = report["jig"]
+        size = " × ".join(f"{value:.0f}" for value in jig["size_mm"])
+        yield f"jig: {_count(jig['walls'], 'wall')}, {size} mm, {jig['turn_support']:.0%} of turns held"
+    if result.folder is not None:
+        yield f"{'up to date' if result.up_to_date else 'written'}: {result.folder}"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
