@@ -25,6 +25,8 @@ class WireConfig(Block):
     """Thickness: `18 AWG`, `swg18` or a diameter such as `1.0 mm`."""
 
     metal: MetalName = "copper"
+    """For weight, springback and how tightly it bends; see `wrapit materials`."""
+
     temper: Temper = "dead soft"
     """How hard the metal is drawn; soft wire bends more tightly."""
 
