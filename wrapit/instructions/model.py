@@ -1,0 +1,79 @@
+"""The guide before it becomes a page: what to prepare, bend, lay and tie, in order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wrapit.wires.model import Wire
+
+
+@dataclass(frozen=True)
+class Material:
+    """Something to have at hand."""
+
+    what: str
+    thickness: str
+    length_mm: float
+    mass_g: float
+    note: str
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A place where passes of wire are bound together; `wires` are numbers, `passes` strands."""
+
+    letter: str
+    junction: int
+    point: tuple[float, float]
+    wires: tuple[int, ...]
+    passes: int
+    binding_mm: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """One stretch of a wire, from one meeting place to the next."""
+
+    number: int
+    start_mm: float
+    end_mm: float
+    action: str
+    arrival: str
+
+
+@dataclass(frozen=True, eq=False)
+class WireSheet:
+    """Everything about the making of one wire; `ties` are met in this order, at mm from the mark."""
+
+    number: int
+    wire: Wire
+    thickness: str
+    tail_mm: float
+    jig: str
+    overbend: str
+    steps: tuple[Step, ...]
+    ties: tuple[tuple[Tie, float], ...]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One stage of the assembly: lay this wire, then make these ties."""
+
+    wire: int
+    joins: tuple[int, ...]
+    ties: tuple[Tie, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Guide:
+    """The whole guide."""
+
+    name: str
+    size_mm: tuple[float, float]
+    metal: str
+    temper: str
+    materials: tuple[Material, ...]
+    sheets: tuple[WireSheet, ...]
+    ties: tuple[Tie, ...]
+    assembly: tuple[Placement, ...]
+    binding_turns: int

@@ -1,0 +1,153 @@
+"""Decides what the guide says, before anything is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from wrapit.config import GuideConfig, WireConfig
+from wrapit.decomposition.model import Solution, Traversal
+from wrapit.drawing.model import Drawing
+from wrapit.geometry import BezierChain
+from wrapit.instructions.model import Guide, Material, Step, Tie, WireSheet
+from wrapit.instructions.ties import assembly_order, find_ties
+from wrapit.instructions.wording import bend_at, joint_phrase, listed, millimetres, shape_phrase, thickness
+from wrapit.jig.model import JigSet
+from wrapit.materials import METALS
+from wrapit.wires.model import Wire
+
+
+def plan_guide(
+    solution: Solution,
+    wires: Sequence[Wire],
+    guide_config: GuideConfig,
+    wire_config: WireConfig,
+    *,
+    name: str,
+    jigset: JigSet | None = None,
+) -> Guide:
+    """The guide for these wires, in their order; ties are lettered, wires numbered from 1."""
+    drawing = solution.decomposition.drawing
+    low, high = drawing.bounds_mm
+    turns = guide_config.binding_turns
+    ties = find_ties(wires, guide_config.binding_gauge, turns)
+    return Guide(
+        name=name,
+        size_mm=(
+            float(high[0] - low[0]) + wire_config.gauge,
+            float(high[1] - low[1]) + wire_config.gauge,
+        ),
+        metal=wire_config.metal,
+        temper=wire_config.temper,
+        materials=_materials(wires, ties, guide_config, wire_config),
+        sheets=tuple(
+            _sheet(number, wire, drawing, ties, wire_config, _jig_of(wire, jigset))
+            for number, wire in enumerate(wires, start=1)
+        ),
+        ties=ties,
+        assembly=assembly_order(wires, ties),
+        binding_turns=turns,
+    )
+
+
+def _materials(
+    wires: Sequence[Wire], ties: Sequence[Tie], guide: GuideConfig, wire_config: WireConfig
+) -> tuple[Material, ...]:
+    metal = METALS[wire_config.metal]
+    materials = []
+    for diameter_mm in sorted({wire.diameter_mm for wire in wires}, reverse=True):
+        cut = [wire.cut_length_mm for wire in wires if wire.diameter_mm == diameter_mm]
+        pieces = f"{len(cut)} piece{'s' if len(cut) > 1 else ''}: {listed([millimetres(c) for c in cut])}"
+        materials.append(
+            Material(
+                f"frame wire, {wire_config.metal}, {wire_config.temper}",
+                thickness(diameter_mm),
+                sum(cut),
+                metal.mass_g(sum(cut), diameter_mm),
+                pieces,
+            )
+        )
+    if ties:
+        length_mm = sum(tie.binding_mm for tie in ties)
+        materials.append(
+            Material(
+                f"binding wire, {wire_config.metal}, dead soft",
+                thickness(guide.binding_gauge),
+                length_mm,
+                metal.mass_g(length_mm, guide.binding_gauge),
+                f"{len(ties)} tie{'s' if len(ties) > 1 else ''} of {guide.binding_turns} turns",
+            )
+        )
+    return tuple(materials)
+
+
+def _sheet(
+    number: int, wire: Wire, drawing: Drawing, ties: Sequence[Tie], wire_config: WireConfig, jig: str
+) -> WireSheet:
+    by_junction = {tie.junction: tie for tie in ties}
+    return WireSheet(
+        number=number,
+        wire=wire,
+        thickness=thickness(wire.diameter_mm),
+        tail_mm=(wire.cut_length_mm - wire.length_mm) / 2,
+        jig=jig,
+        overbend=_overbend(wire, wire_config),
+        steps=_steps(number, wire, drawing, by_junction),
+        ties=tuple((by_junction[binding.junction], binding.at_mm) for binding in wire.bindings),
+    )
+
+
+def _steps(number: int, wire: Wire, drawing: Drawing, ties: dict[int, Tie]) -> tuple[Step, ...]:
+    steps: list[Step] = []
+    before: BezierChain | None = None
+    for traversal, (start, end) in zip(wire.traversals, wire.segment_spans_mm, strict=True):
+        curve = drawing.segments[traversal.segment].curve
+        curve = curve.reversed() if traversal.reversed else curve
+        shape = shape_phrase(curve)
+        if before is None:
+            action = f"From the start mark, {shape}"
+        elif traversal.segment in {run.segment for run in wire.traversals[: len(steps)]}:
+            turn = joint_phrase(bend_at(before.end_tangent, curve.start_tangent))
+            action = f"{turn} and lay the wire back close along the stretch that it ran before"
+        else:
+            action = f"{joint_phrase(bend_at(before.end_tangent, curve.start_tangent))}, then {shape}"
+        arrival = _arrival(
+            number, _end(drawing, traversal), ties, last=len(steps) + 1 == len(wire.traversals)
+        )
+        steps.append(Step(len(steps) + 1, start, end, action.rstrip(",") + ".", arrival))
+        before = curve
+    return tuple(steps)
+
+
+def _end(drawing: Drawing, traversal: Traversal) -> int:
+    segment = drawing.segments[traversal.segment]
+    return segment.start if traversal.reversed else segment.end
+
+
+def _arrival(number: int, junction: int, ties: dict[int, Tie], *, last: bool) -> str:
+    tie = ties.get(junction)
+    place = ""
+    if tie is not None:
+        others = [f"wire {other}" for other in tie.wires if other != number]
+        place = f"This is point {tie.letter}, where it will be tied to {listed(others or ['itself'])}."
+    return f"{place} The wire ends here; leave the tail.".strip() if last else place
+
+
+def _overbend(wire: Wire, wire_config: WireConfig) -> str:
+    """How far to bend beyond the shape, because the metal springs back when it is let go."""
+    curvature = max((turn.max_curvature_per_mm for turn in wire.turns), default=0.0)
+    if curvature <= 0:
+        return ""
+    loss = METALS[wire_config.metal].springback_per_mm(wire.diameter_mm, wire_config.temper)
+    radius_mm = min(1 / curvature, 50.0)
+    degrees = math.degrees(math.pi / 2 * loss * radius_mm)
+    return (
+        f"The metal springs back a little: bend a right angle with a radius of {radius_mm:.1f} mm "
+        f"about {max(1, round(degrees))}° further than you need."
+    )
+
+
+def _jig_of(wire: Wire, jigset: JigSet | None) -> str:
+    if jigset is None:
+        return ""
+    return next((jig.name for jig in jigset.jigs if wire.name in jig.wires), "")
