@@ -1,0 +1,32 @@
+"""The stages from Python: a drawing, its wires, and what to cut.
+
+Run it with `python examples/from_python.py`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from wrapit.config import load_config
+from wrapit.decomposition.stage import decompose
+from wrapit.drawing.stage import trace
+from wrapit.wires.stage import draw_wires
+
+CONFIGS = Path(__file__).parent.parent / "configs"
+
+
+def main() -> None:
+    config = load_config(CONFIGS / "butterfly.yaml", ["size=45 mm"])
+    drawing, _ = trace(CONFIGS / config.drawing, config.tracing, config.size)
+    print(f"{len(drawing.segments)} segments between {len(drawing.junctions)} junctions")
+    solution, _ = decompose(drawing, config.decomposition)
+    print(f"{solution.energy.complexity} wires, {solution.energy.smoothness_rad:.2f} rad of bends in all")
+    wires, _ = draw_wires(solution, config)
+    for wire in wires:
+        print(
+            f"{wire.name}: {wire.length_mm:.0f} mm long, cut {wire.cut_length_mm:.0f} mm, {len(wire.turns)} turns"
+        )
+
+
+if __name__ == "__main__":
+    main()
