@@ -1,0 +1,164 @@
+"""Graphs of every size and kind, generated; no drawing needed.
+
+`graph_text` writes one in the format of the reference program.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from wrapit.decomposition.graph import Graph
+
+
+def random_multigraph(rng: np.random.Generator, segments: int, junctions: int) -> Graph:
+    """Any multigraph at all: loops, parallel segments, cut junctions; tangents at random."""
+    angles = rng.uniform(0, 2 * math.pi, 2 * segments)
+    return Graph(
+        tuple(rng.integers(junctions, size=2 * segments).tolist()),
+        np.stack([np.cos(angles), np.sin(angles)], axis=1),
+        tuple(rng.uniform(1, 20, segments).tolist()),
+    )
+
+
+def all_even(rng: np.random.Generator, segments: int, junctions: int) -> Graph:
+    """A random closed walk: every junction has an even degree."""
+    walk = rng.integers(junctions, size=segments).tolist()
+    ends = [j for e in range(segments) for j in (walk[e], walk[(e + 1) % segments])]
+    angles = rng.uniform(0, 2 * math.pi, 2 * segments)
+    return Graph(
+        tuple(ends), np.stack([np.cos(angles), np.sin(angles)], axis=1), tuple(rng.uniform(1, 20, segments))
+    )
+
+
+def closed_curves(rng: np.random.Generator, segments: int) -> Graph:
+    """Smooth closed curves that cross one another: all junctions of degree 4, passed straight."""
+    return _crossings(rng, segments, closed=True)
+
+
+def strokes(rng: np.random.Generator, segments: int) -> Graph:
+    """Open smooth strokes that cross one another, with dangling ends."""
+    return _crossings(rng, segments, closed=False)
+
+
+def voronoi(rng: np.random.Generator, segments: int) -> Graph:
+    """Cells: degree 3 everywhere."""
+    from scipy.spatial import Voronoi
+
+    diagram = Voronoi(rng.uniform(0, 1, (segments // 2 + 12, 2)))
+    inside = np.all((diagram.vertices > -0.3) & (diagram.vertices < 1.3), axis=1)
+    edges = [(a, b) for a, b in diagram.ridge_vertices if a >= 0 and b >= 0 and inside[a] and inside[b]]
+    return _straight(diagram.vertices, edges, segments)
+
+
+def delaunay(rng: np.random.Generator, segments: int) -> Graph:
+    """Triangles: degrees about 6 and above."""
+    from scipy.spatial import Delaunay
+
+    points = rng.uniform(0, 1, (max(5, segments // 3 + 3), 2))
+    triangles = Delaunay(points).simplices
+    edges = sorted({tuple(sorted((int(t[i]), int(t[i - 1])))) for t in triangles for i in range(3)})
+    return _straight(points, edges, segments)
+
+
+def cactus(rng: np.random.Generator, segments: int) -> Graph:
+    """Rings and twigs that hang on one another at cut junctions, the hardest kind for robustness."""
+    ends: list[int] = []
+    junctions = 1
+    while len(ends) < 2 * segments:
+        at = int(rng.integers(junctions))
+        size = int(rng.integers(1, 6))
+        ring = [at, *range(junctions, junctions + size - 1)]
+        junctions += size - 1
+        if size > 1 and rng.random() < 0.4:
+            ends += [j for pair in itertools.pairwise(ring) for j in pair]
+        else:
+            ends += [j for pair in zip(ring, [*ring[1:], at], strict=True) for j in pair]
+    ends = ends[: 2 * segments]
+    angles = rng.uniform(0, 2 * math.pi, len(ends))
+    return Graph(
+        tuple(_renumbered(ends)),
+        np.stack([np.cos(angles), np.sin(angles)], axis=1),
+        tuple(rng.uniform(1, 20, len(ends) // 2)),
+    )
+
+
+FAMILIES: dict[str, Callable[[np.random.Generator, int], Graph]] = {
+    "closed curves": closed_curves,
+    "strokes": strokes,
+    "voronoi": voronoi,
+    "delaunay": delaunay,
+    "cactus": cactus,
+}
+
+
+def graph_text(graph: Graph) -> str:
+    """`V E`, then V lines `x y` (unused: zeros), then E lines `u v tux tuy tvx tvy`."""
+    lines = [f"{len(graph.incident)} {graph.segments}", *("0 0" for _ in graph.incident)]
+    for e in range(graph.segments):
+        u, v = graph.junction_of[2 * e], graph.junction_of[2 * e + 1]
+        numbers = " ".join(f"{x:.17g}" for x in graph.tangents[2 * e : 2 * e + 2].ravel())
+        lines.append(f"{u} {v} {numbers}")
+    return "\n".join(lines) + "\n"
+
+
+def _crossings(rng: np.random.Generator, segments: int, *, closed: bool) -> Graph:
+    """Curves are random sequences of crossings; each crossing is passed twice, nearly straight."""
+    crossings = max(1, segments // 2 if closed else round(segments / 2.3))
+    passes = rng.permutation(np.repeat(np.arange(crossings), 2)).tolist()
+    count = max(1, crossings // 8)
+    cuts = sorted(
+        rng.choice(np.arange(1, len(passes)), min(count - 1, len(passes) - 1), replace=False).tolist()
+    )
+    ends: list[int] = []
+    angles: list[float] = []
+    directions = [rng.uniform(0, 2 * math.pi) for _ in range(crossings)]
+    seen = [0] * crossings
+    fresh = crossings
+    for first, last in zip([0, *cuts], [*cuts, len(passes)], strict=True):
+        stops = passes[first:last]
+        headings = []
+        for stop in stops:
+            headings.append(directions[stop] + seen[stop] * rng.uniform(0.6, 2.5))
+            seen[stop] += 1
+        hops = list(zip(range(len(stops)), [*range(1, len(stops)), 0], strict=True))
+        if not closed:
+            hops.pop()
+            for index, out in ((0, math.pi), (-1, 0.0)):
+                ends += [stops[index], fresh]
+                angles += [headings[index] + out, rng.uniform(0, 2 * math.pi)]
+                fresh += 1
+        for i, k in hops:
+            ends += [stops[i], stops[k]]
+            angles += [headings[i] + rng.normal(0, 0.02), headings[k] + math.pi + rng.normal(0, 0.02)]
+    return Graph(
+        tuple(_renumbered(ends)),
+        np.stack([np.cos(angles), np.sin(angles)], axis=1),
+        tuple(rng.uniform(1, 20, len(ends) // 2).tolist()),
+    )
+
+
+def _straight(points: np.ndarray, edges: Sequence[tuple[int, int]], segments: int) -> Graph:
+    """The segments nearest the middle, so that the rest stays in one piece."""
+    middle = np.mean([(points[a] + points[b]) / 2 for a, b in edges], axis=0)
+    ordered = sorted(
+        edges, key=lambda edge: float(np.hypot(*((points[edge[0]] + points[edge[1]]) / 2 - middle)))
+    )
+    ends: list[int] = []
+    angles: list[float] = []
+    lengths: list[float] = []
+    for a, b in ordered[:segments]:
+        way = points[b] - points[a]
+        angle = math.atan2(way[1], way[0])
+        ends += [a, b]
+        angles += [angle, angle + math.pi]
+        lengths.append(float(np.hypot(*way)) * 40)
+    return Graph(tuple(_renumbered(ends)), np.stack([np.cos(angles), np.sin(angles)], axis=1), tuple(lengths))
+
+
+def _renumbered(ends: Sequence[int]) -> list[int]:
+    number: dict[int, int] = {}
+    return [number.setdefault(junction, len(number)) for junction in ends]

@@ -1,0 +1,67 @@
+"""The energy of a decomposition, from its trails and nothing else.
+
+No solver is trusted: what is reported is always what these functions find.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from wrapit.decomposition.graph import Graph
+from wrapit.decomposition.model import Energy, Trail, Traversal, Weights
+from wrapit.decomposition.trails import trails_of
+
+
+def energy_of(graph: Graph, mate: Sequence[int], weights: Weights) -> Energy:
+    """The energy (paper, equations 1 to 4) of a matching. Raises ValueError where it is none."""
+    trails = trails_of(graph, mate)
+    complexity = len(trails)
+    smoothness = math.fsum(bend for trail in trails for bend in bends_of(graph, trail))
+    robustness = len(weak_trails(graph, trails))
+    bridges = len({t.segment for trail in trails for t in trail.traversals} & graph.bridges)
+    total = (
+        complexity
+        + weights.smoothness * smoothness
+        + weights.robustness * robustness
+        + weights.bridges * bridges
+    )
+    return Energy(complexity, smoothness, robustness, bridges, total)
+
+
+def bends_of(graph: Graph, trail: Trail) -> list[float]:
+    """Bend angle in radians at each junction that the trail passes."""
+    angles = []
+    for before, after in zip(trail.traversals, trail.traversals[1:], strict=False):
+        first, second = graph.tangents[_arrival(before)], graph.tangents[_departure(after)]
+        cross = first[0] * second[1] - first[1] * second[0]
+        angles.append(math.pi - abs(math.atan2(cross, float(first @ second))))
+    return angles
+
+
+def weak_trails(graph: Graph, trails: Sequence[Trail]) -> list[int]:
+    """Indices of the trails that touch other trails at one junction only, and so can swing about it.
+
+    A trail that touches none is a whole piece of the drawing in one wire, which is as robust as can
+    be (the paper's exemption for designs of one wire, taken piece by piece).
+    """
+    touched = [junctions_of(graph, trail) for trail in trails]
+    visitors: dict[int, int] = {}
+    for junctions in touched:
+        for junction in junctions:
+            visitors[junction] = visitors.get(junction, 0) + 1
+    contacts = [sum(visitors[junction] > 1 for junction in junctions) for junctions in touched]
+    return [index for index, count in enumerate(contacts) if count == 1]
+
+
+def junctions_of(graph: Graph, trail: Trail) -> set[int]:
+    """The junctions that a trail visits, its ends included."""
+    return {graph.junction_of[h] for t in trail.traversals for h in (_departure(t), _arrival(t))}
+
+
+def _departure(traversal: Traversal) -> int:
+    return 2 * traversal.segment + traversal.reversed
+
+
+def _arrival(traversal: Traversal) -> int:
+    return _departure(traversal) ^ 1

@@ -1,0 +1,47 @@
+"""`decomposition.json`, as other programs read it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+from wrapit.decomposition.model import Solution
+from wrapit.decomposition.stage import wire_name
+
+
+def decomposition_json(solution: Solution) -> str:
+    """The text of `decomposition.json` (format `wrapit-decomposition/1`), one wire per line."""
+    document = decomposition_summary(solution)
+    wires = [
+        {
+            "name": wire_name(index),
+            "closed": trail.closed,
+            "traversals": [[t.segment, t.reversed] for t in trail.traversals],
+        }
+        for index, trail in enumerate(solution.trails)
+    ]
+    lines = []
+    for key, value in ({**document, "wires": wires}).items():
+        if key == "wires":
+            text = "[\n" + ",\n".join(f"    {json.dumps(wire)}" for wire in wires) + "\n  ]"
+        else:
+            text = json.dumps(value, allow_nan=False)
+        lines.append(f"  {json.dumps(key)}: {text}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def decomposition_summary(solution: Solution) -> dict[str, Any]:
+    """Everything in `decomposition.json` but the wires, as `report.json` repeats it."""
+    return {
+        "format": "wrapit-decomposition/1",
+        "solver": solution.solver,
+        "seed": solution.seed,
+        "energy": asdict(solution.energy),
+        "weights": asdict(solution.weights),
+        "lower_bound": solution.lower_bound,
+        "optimal": solution.optimal,
+        "bridges_used": list(solution.bridges_used),
+        "doubled": list(solution.doubled),
+        "iterations": solution.iterations,
+    }

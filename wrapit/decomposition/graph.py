@@ -1,0 +1,138 @@
+"""What the solvers see of a drawing: which segment ends meet, and how sharply a wire would bend."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wrapit.drawing.model import Drawing
+from wrapit.geometry import FloatArray, locked
+
+
+@dataclass(frozen=True, eq=False)
+class Graph:
+    """A multigraph of segments with directions at their ends, and no other geometry.
+
+    Segment e has half-edges 2e (its start) and 2e + 1 (its end). `junction_of[h]` is the junction
+    of half-edge h; `tangents` (2 · segments, 2) are unit directions pointing away from the
+    junction; `bridges` are segments that may stay unused. Raises ValueError where sizes disagree.
+    """
+
+    junction_of: tuple[int, ...]
+    tangents: FloatArray
+    lengths_mm: tuple[float, ...]
+    bridges: frozenset[int] = frozenset()
+
+    def __post_init__(self) -> None:
+        tangents = locked(np.reshape(self.tangents, (-1, 2)))
+        if not len(self.junction_of) == len(tangents) == 2 * len(self.lengths_mm):
+            raise ValueError("a graph has two half-edges and two tangents per segment")
+        object.__setattr__(self, "tangents", tangents)
+
+    @property
+    def segments(self) -> int:
+        """Number of segments, bridges included."""
+        return len(self.lengths_mm)
+
+    @cached_property
+    def incident(self) -> tuple[tuple[int, ...], ...]:
+        """The half-edges at each junction, in rising order."""
+        incident: list[list[int]] = [[] for _ in range(max(self.junction_of, default=-1) + 1)]
+        for half_edge, junction in enumerate(self.junction_of):
+            incident[junction].append(half_edge)
+        return tuple(map(tuple, incident))
+
+    @cached_property
+    def bends_rad(self) -> tuple[dict[int, float], ...]:
+        """For each half-edge, the bend angle in [0, π] towards each one that a wire may continue into.
+
+        Paper, section 4.2, with the absolute value that makes left and right bends cost the same.
+        The two ends of one loop are no transition: they would close a ring.
+        """
+        pairs = np.array(
+            [
+                (a, b)
+                for ends in self.incident
+                for i, a in enumerate(ends)
+                for b in ends[i + 1 :]
+                if a ^ 1 != b
+            ],
+            dtype=np.int64,
+        ).reshape(-1, 2)
+        first, second = self.tangents[pairs[:, 0]], self.tangents[pairs[:, 1]]
+        cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+        angles = math.pi - np.abs(np.arctan2(cross, np.sum(first * second, axis=1)))
+        bends: tuple[dict[int, float], ...] = tuple({} for _ in self.junction_of)
+        for (a, b), angle in zip(pairs.tolist(), angles.tolist(), strict=True):
+            bends[a][b] = bends[b][a] = angle
+        return bends
+
+    def subgraph(self, segments: Sequence[int]) -> Graph:
+        """The graph of these segments alone, segments and junctions renumbered in order."""
+        half_edges = [h for e in segments for h in (2 * e, 2 * e + 1)]
+        junctions = sorted({self.junction_of[h] for h in half_edges})
+        number = {junction: index for index, junction in enumerate(junctions)}
+        return Graph(
+            tuple(number[self.junction_of[h]] for h in half_edges),
+            self.tangents[half_edges],
+            tuple(self.lengths_mm[e] for e in segments),
+            frozenset(index for index, e in enumerate(segments) if e in self.bridges),
+        )
+
+
+def graph_of(drawing: Drawing) -> Graph:
+    """The graph of a drawing, same numbers of segments and junctions."""
+    tangents = [
+        tangent
+        for segment in drawing.segments
+        for tangent in (segment.curve.start_tangent, -segment.curve.end_tangent)
+    ]
+    return Graph(
+        tuple(junction for segment in drawing.segments for junction in (segment.start, segment.end)),
+        np.reshape(tangents, (-1, 2)),
+        tuple(segment.curve.length for segment in drawing.segments),
+        frozenset(segment.id for segment in drawing.segments if segment.kind == "bridge"),
+    )
+
+
+def pieces(graph: Graph, links: Iterable[tuple[int, int]] = ()) -> list[list[int]]:
+    """Segments of each connected piece, in rising order; `links` tie further pairs of segments together."""
+    parent = list(range(graph.segments))
+
+    def root(e: int) -> int:
+        while parent[e] != e:
+            parent[e] = parent[parent[e]]
+            e = parent[e]
+        return e
+
+    def tie(e: int, f: int) -> None:
+        first, second = sorted((root(e), root(f)))
+        parent[second] = first
+
+    for ends in graph.incident:
+        for h in ends[1:]:
+            tie(ends[0] >> 1, h >> 1)
+    for e, f in links:
+        tie(e, f)
+    groups: dict[int, list[int]] = {}
+    for e in range(graph.segments):
+        groups.setdefault(root(e), []).append(e)
+    return list(groups.values())
+
+
+def fewest_possible_wires(graph: Graph) -> int:
+    """Least number of wires that cover the strokes: half the odd junctions of each piece, at least one.
+
+    Euler: each trail has two ends, and a wire ends at every junction where an odd number of
+    segment ends meet.
+    """
+    strokes = graph.subgraph([e for e in range(graph.segments) if e not in graph.bridges])
+    odd = [len(ends) % 2 for ends in strokes.incident]
+    return sum(
+        max(1, sum(odd[j] for j in {strokes.junction_of[h] for e in piece for h in (2 * e, 2 * e + 1)}) // 2)
+        for piece in pieces(strokes)
+    )
