@@ -23,9 +23,7 @@ def main() -> None:
     print(f"{solution.energy.complexity} wires, {solution.energy.smoothness_rad:.2f} rad of bends in all")
     wires, _ = draw_wires(solution, config)
     for wire in wires:
-        print(
-            f"{wire.name}: {wire.length_mm:.0f} mm long, cut {wire.cut_length_mm:.0f} mm, {len(wire.turns)} turns"
-        )
+        print(f"{wire.name}: cut {wire.cut_length_mm:.0f} mm, {len(wire.turns)} turns")
 
 
 if __name__ == "__main__":

@@ -195,8 +195,27 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
 
 
 def _export(work: _Work, folder: Path) -> None:
+    assert work.solution is not None
+    assert work.jigs is not None
     with work.stage("exports"):
-        ...
+        from wrapit.exports.preview_png import write_preview
+        from wrapit.instructions.stage import write_instructions
+
+        jigs = work.jigs.jigs
+        shown = jigs[0] if len(jigs) == 1 else None
+        write_preview(
+            folder / "preview.png", work.wires, shown.walls if shown else (), shown.plate if shown else None
+        )
+        if "guide" in work.config.outputs:
+            guide = write_instructions(
+                work.solution,
+                work.wires,
+                work.config.guide,
+                work.config.wire,
+                name=work.config.name,
+                jigset=work.jigs,
+            )
+            _write(folder / "guide.html", guide)
 
 
 def _write(path: Path, text: str) -> None:

@@ -1,0 +1,129 @@
+"""Real programs open what wrapit writes, and find what wrapit says."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.clients import freecad
+from tests.conftest import CONFIGS
+from wrapit.pipeline.build import Build
+
+pytestmark = pytest.mark.client
+
+Piece = Callable[[str], Build]
+Program = Callable[[str], str]
+NAMES = sorted(path.stem for path in CONFIGS.glob("*.yaml"))
+
+
+def files(build: Build, pattern: str) -> list[Path]:
+    assert build.folder is not None
+    found = sorted(build.folder.glob(pattern))
+    assert found, pattern
+    return found
+
+
+def wire_colours(build: Build) -> dict[str, list[float]]:
+    from wrapit.wires.palette import wire_colour
+
+    channels = {}
+    for index, wire in enumerate(build.report["wires"]):
+        colour = wire_colour(index)
+        channels[wire["name"]] = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    return channels
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_freecad_finds_names_colours_volumes(
+    piece: Piece, program: Program, tmp_path: Path, name: str
+) -> None:
+    xvfb, gui = program("xvfb-run"), program("freecad")
+    build = piece(name)
+    jig, wires = (files(build, f"{stem}.step")[0] for stem in ("jig", "wires"))
+    seen = freecad.tree(xvfb, gui, [jig, wires], tmp_path)
+
+    bodies = [thing for thing in seen["jig.step"] if thing["solids"]]
+    assert (
+        sum(thing["solids"] for thing in bodies if thing["type"] == "Part::Feature")
+        == build.report["jig"]["solids"]
+    )
+    volume = sum(thing["volume"] for thing in bodies if thing["type"] == "Part::Feature")
+    assert volume == pytest.approx(build.report["jig"]["volume_mm3"], rel=1e-4)
+    assert all(thing["valid"] for thing in bodies)
+
+    for wire in build.report["wires"]:
+        things = [thing for thing in seen["wires.step"] if thing["label"].startswith(wire["name"])]
+        solids = [thing for thing in things if thing["solids"] and thing["type"] == "Part::Feature"]
+        assert solids, seen["wires.step"]
+        for thing in solids:
+            assert thing["colour"] == pytest.approx(wire_colours(build)[wire["name"]], abs=0.01)
+        curves = {curve for thing in things for curve in thing["free_curves"]}
+        assert curves == {"Part::GeomBSplineCurve"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_slicer_needs_no_repairs(piece: Piece, program: Program, tmp_path: Path, name: str) -> None:
+    slicer = program("prusa-slicer")
+    for model in files(piece(name), "jig*.stl") + files(piece(name), "jig*.3mf"):
+        gcode = tmp_path / f"{model.name}.gcode"
+        command = [slicer, "--export-gcode", "--output", str(gcode), str(model)]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+        said = run.stdout + run.stderr
+        assert run.returncode == 0, said
+        assert not re.search(r"repair|non-manifold|open edges|auto-?repaired", said, re.IGNORECASE), said
+        assert gcode.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_stl_is_watertight(piece: Piece, program: Program, name: str) -> None:
+    admesh = program("admesh")
+    for model in files(piece(name), "jig*.stl"):
+        said = subprocess.run([admesh, "-c", str(model)], capture_output=True, text=True, check=True).stdout
+        for fault in ("Total disconnected facets", "Backwards edges", "Degenerate facets", "Normals fixed"):
+            numbers = re.search(rf"{fault}\s*:\s*(\d+)(?:\s+(\d+))?", said)
+            assert numbers, said
+            assert {number for number in numbers.groups() if number is not None} == {"0"}, said
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_dxf_audit_is_clean(piece: Piece, name: str) -> None:
+    import ezdxf
+
+    for path in files(piece(name), "plate*.dxf"):
+        document = ezdxf.readfile(path)
+        audit = document.audit()
+        assert not audit.errors
+        assert not audit.fixes
+        assert document.units == ezdxf.units.MM
+        assert len(document.modelspace()) > 0
+
+
+def test_guide_shows_in_a_browser(piece: Piece, program: Program, tmp_path: Path) -> None:
+    browser = program("chromium")
+    build = piece("butterfly")
+    (guide,) = files(build, "guide.html")
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
+    command += ["--disable-background-networking", "--disable-component-update", "--disable-sync"]
+    command += [f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom", guide.as_uri()]
+    page = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
+    text = re.sub(r"<[^>]+>", " ", page)
+    for index, wire in enumerate(build.report["wires"], start=1):
+        assert f"Wire {index} of {len(build.report['wires'])}" in " ".join(text.split())
+        assert f"{wire['cut_length_mm']:.0f}" in text
+    assert not re.search(r"""(?:src|href)=["'](?:https?:)?//""", page), "the page must need no network"
+
+
+def test_report_names_every_file(piece: Piece) -> None:
+    build = piece("butterfly")
+    assert build.folder is not None
+    report = json.loads((build.folder / "report.json").read_text())
+    listed = {artifact["path"] for artifact in report["artifacts"]}
+    assert listed == {path.name for path in build.folder.iterdir()} - {"report.json"}
+    solids = {"jig.step", "jig.stl", "jig.3mf", "wires.step"}
+    texts = {"drawing.svg", "drawing.json", "decomposition.svg", "decomposition.json", "config.lock.yaml"}
+    assert solids | texts | {"plate.dxf", "preview.png", "guide.html"} <= listed
