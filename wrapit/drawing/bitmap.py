@@ -8,15 +8,17 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import Piece, assemble, placement
-from wrapit.drawing.centring import Line, centre_lines, measure_width
+from wrapit.drawing.centring import Line, centre_lines
 from wrapit.drawing.cleanup import Radii, contract_short, drop_small_loops, keep_largest, prune_spurs
 from wrapit.drawing.image import load_grey
-from wrapit.drawing.ink import find_ink
+from wrapit.drawing.ends import place_end
+from wrapit.drawing.ink import Ink, find_ink
+from wrapit.drawing.junctions import Ending, arms_at, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Network
 from wrapit.drawing.skeleton import network, thin
 from wrapit.errors import DrawingError, Finding
-from wrapit.geometry import FloatArray, unit
+from wrapit.geometry import unit
 from wrapit.geometry.fitting import Stroke, fit_all
 
 
@@ -27,35 +29,64 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     """
     grey, _ = load_grey(path, tracing.pixel_limit)
     ink = find_ink(grey, str(path))
-    pixels, pairs = thin(ink.mask)
-    if len(pixels) < 8:
+    skeleton = thin(ink.mask)
+    if len(skeleton.pixels) < 8:
         raise DrawingError("the picture holds no lines", str(path), "draw at least one line")
-    width_px, distance = measure_width(pixels, ink.mask)
-    net = network(pixels, pairs)
-    radius = Radii(pixels, distance)
+    width_px = skeleton.width_px
+    net = network(skeleton.pixels, skeleton.pairs)
+    radius = Radii(skeleton.pixels, skeleton.distance)
     net.rejoin_all()
     prune_spurs(net, radius, width_px)
     contract_short(net, radius, 1.0)
     drop_small_loops(net, width_px)
     keep_largest(net)
     lines = centre_lines(net, ink, width_px)
-    pieces = _fitted(net, lines, width_px, tracing.tolerance)
-    place = placement([piece.curve for piece in pieces], size_mm, flip=True)
-    drawing = assemble(net.nodes, pieces, place, width=width_px, changes=net.changes, pixel_frame=True)
+    pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
+    where = placement([piece.curve for piece in pieces], size_mm, flip=True)
+    drawing = assemble(net.nodes, pieces, where, width=width_px, changes=net.changes, pixel_frame=True)
     return drawing, ()
 
 
-def _fitted(net: Network, lines: dict[int, Line], width_px: float, tolerance: float) -> list[Piece]:
-    strokes = []
-    for strand, s in net.strands.items():
-        strokes.append(_stroke(lines[strand], net.nodes[s.start], net.nodes[s.end], width_px))
+def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float) -> list[Piece]:
+    endings: dict[tuple[int, int], Ending] = {}
+    for node in net.nodes:
+        arms = arms_at(net, lines, node, width_px)
+        if len(arms) == 1:
+            net.nodes[node], ending = place_end(arms[0], ink)
+            endings[arms[0].strand, arms[0].end] = ending
+        elif len(arms) == 2 and arms[0].strand == arms[1].strand:
+            _seam(net, lines, node, endings, width_px)
+        else:
+            net.nodes[node], found = place(arms, net.nodes[node])
+            for arm_, ending in zip(arms, found, strict=True):
+                endings[arm_.strand, arm_.end] = ending
+    strokes = [
+        _stroke(net, strand, lines[strand], endings[strand, 0], endings[strand, 1]) for strand in net.strands
+    ]
     chains = fit_all(strokes, tolerance * width_px, reach=width_px)
     return [Piece(s.start, s.end, chain) for s, chain in zip(net.strands.values(), chains, strict=True)]
 
 
-def _stroke(line: Line, start: FloatArray, end: FloatArray, width_px: float) -> Stroke:
-    keep = (line.along > width_px) & (line.along < line.length - width_px)
-    inner = line.points[keep]
-    points = np.vstack([start[None], inner, end[None]])
-    reach = min(len(points) - 1, 6)
-    return Stroke(points, unit(points[reach] - points[0]), unit(points[-1] - points[-1 - reach]))
+def _seam(
+    net: Network, lines: dict[int, Line], node: int, endings: dict[tuple[int, int], Ending], width_px: float
+) -> None:
+    """A closed loop without junction starts and ends at its topmost point, in one direction."""
+    strand = net.ends_at(node)[0][0]
+    line = lines[strand]
+    top = int(np.argmin(line.points[:-1, 1]))
+    lines[strand] = line = line.turned(top)
+    reach = int(np.searchsorted(line.along, width_px))
+    tangent = unit(line.points[reach] - line.points[-1 - reach])
+    net.nodes[node] = line.points[0]
+    endings[strand, 0] = Ending(tangent, np.zeros((0, 2)), 1)
+    endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
+
+
+def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
+    s = net.strands[strand]
+    stop = len(line.points) - last.cut
+    inner = slice(first.cut, stop)
+    keep = line.clean[inner] if line.clean[inner].mean() > 0.6 else slice(None)
+    middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
+    points = np.vstack([net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]])
+    return Stroke(points, first.tangent, -last.tangent)

@@ -35,22 +35,11 @@ class Line:
         """Length in pixels."""
         return float(self.along[-1])
 
-
-def measure_width(pixels: FloatArray, mask: NDArray[np.bool_]) -> tuple[float, FloatArray]:
-    """Stroke width in pixels, and the distance (n,) of each skeleton pixel to the edge of the ink."""
-    from scipy.spatial import cKDTree
-
-    edge = np.zeros_like(mask)
-    edge[1:] |= mask[:-1]
-    edge[:-1] |= mask[1:]
-    edge[:, 1:] |= mask[:, :-1]
-    edge[:, :-1] |= mask[:, 1:]
-    edge &= ~mask
-    y, x = np.nonzero(edge)
-    if not len(x):
-        return float(2 * max(mask.shape)), np.full(len(pixels), float(max(mask.shape)))
-    distance, _ = cKDTree(np.column_stack([x, y]), balanced_tree=False, compact_nodes=False).query(pixels)
-    return float(2 * np.median(distance) - 0.5), distance
+    def turned(self, first: int) -> Line:
+        """A closed line that starts (and ends) at another of its points."""
+        order = np.concatenate([np.arange(first, len(self.points) - 1), np.arange(first + 1)])
+        points = self.points[order]
+        return Line(points, self.width[order], self.clean[order], lengths(points))
 
 
 def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
@@ -72,19 +61,27 @@ def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
         shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
         points = points + np.nan_to_num(shift)[:, None] * normals
         paths = np.split(points, bounds)
+    known = width[np.isfinite(width)]
+    spread = float(np.median(np.abs(known - np.median(known)))) if len(known) else 0.0
     return {
-        strand: _line(path, width, width_px)
+        strand: _line(path, width, width_px, min(spread, 0.1 * width_px))
         for strand, path, width in zip(strands, paths, np.split(width, bounds), strict=True)
     }
 
 
-def _line(points: FloatArray, width: FloatArray, width_px: float) -> Line:
+def _line(points: FloatArray, width: FloatArray, width_px: float, spread: float) -> Line:
     known = width[np.isfinite(width)]
     usual = float(np.median(known)) if len(known) > 24 else width_px
     usual = float(np.clip(usual, 0.85 * width_px, 1.15 * width_px))
-    clean = np.abs(width - usual) <= max(_CLEAN * width_px, _CLEAN_PX)
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    return Line(points, width, clean, along)
+    # Another stroke only widens: thinner places are the hand's, and as good as others.
+    slack = max(_CLEAN * width_px, _CLEAN_PX, 1.5 * spread)
+    clean = (width - usual <= slack) & (width >= 0.6 * usual)
+    return Line(points, width, clean, lengths(points))
+
+
+def lengths(points: FloatArray) -> FloatArray:
+    """Length of a chain of points from its start to each of them, (n,)."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
 
 
 def _resampled(path: FloatArray, step: float) -> FloatArray:

@@ -66,7 +66,7 @@ def contract_short(net: Network, radius: Radii, share: float) -> None:
         _, strand = min(short)
         s = net.strands[strand]
         middle = (net.nodes[s.start] + net.nodes[s.end]) / 2
-        net.merge([s.start, s.end], middle)
+        net.merge([s.start, s.end], middle, [strand])
 
 
 def drop_small_loops(net: Network, width_px: float) -> None:

@@ -207,15 +207,26 @@ def _rejoined(points: FloatArray, start: FloatArray, end: FloatArray, where: str
         )
     points[0, 0], points[-1, 3] = start, end
     for before, after in itertools.pairwise(points):
-        across = unit(after[1] - before[2])
-        off = before[3] - before[2]
-        foot = before[2] + (off @ across) * across
-        if np.linalg.norm(foot - before[3]) <= _ROUNDING_MM and off @ across > 0:
-            before[3] = foot
+        _straighten(before, after)
         after[0] = before[3]
     if float(np.abs(np.diff(points.reshape(-1, 2), axis=0)).max()) == 0:
         raise DrawingError("the segment has no length", where, "delete it")
     return points
+
+
+def _straighten(before: FloatArray, after: FloatArray) -> None:
+    """Puts a joint and its two handles back on one line, each moved as little as possible."""
+    reach = after[1] - before[2]
+    length = float(np.linalg.norm(reach))
+    along = unit(reach)
+    normal = np.array([-along[1], along[0]])
+    off = before[3] - before[2]
+    share, error = float(off @ along) / max(length, 1e-12), float(off @ normal)
+    if 0 < share < 1 and abs(error) <= _ROUNDING_MM:
+        step = error / (1 + (1 - share) ** 2 + share**2) * normal
+        before[3] -= step
+        before[2] += (1 - share) * step
+        after[1] += share * step
 
 
 def _rounded(values: FloatArray) -> Any:

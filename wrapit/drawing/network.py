@@ -100,14 +100,10 @@ class Network:
         else:
             s.end = node
 
-    def merge(self, nodes: list[int], point: FloatArray) -> int:
-        """One node in place of several; strands that run only between them vanish."""
-        inner = {s for node in nodes for s, _ in self._ends[node]}
-        members = set(nodes)
-        for strand in sorted(inner):
-            s = self.strands[strand]
-            if s.start in members and s.end in members:
-                self.drop_strand(strand)
+    def merge(self, nodes: list[int], point: FloatArray, inner: list[int]) -> int:
+        """One node in place of several; the strands `inner` between them vanish, others become loops."""
+        for strand in inner:
+            self.drop_strand(strand)
         kept = nodes[0]
         self.nodes[kept] = np.asarray(point, dtype=np.float64)
         for node in nodes[1:]:

@@ -1,0 +1,258 @@
+"""Where strokes truly meet: found from the clean part of each arm, not from the ink where they overlap."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wrapit.drawing.centring import Line
+from wrapit.drawing.network import Network
+from wrapit.geometry import FloatArray, unit
+
+# In stroke widths.
+_ARM = 3.0
+_MARGIN = 0.1
+_SNAP_RAD = math.radians(20)
+_PAIR_RAD = math.radians(40)
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """The clean part of a strand at one of its ends, walked outward; `cut` counts the points before it."""
+
+    strand: int
+    end: int
+    cut: int
+    points: FloatArray
+    width_px: float
+
+    @cached_property
+    def along(self) -> FloatArray:
+        """Length from the first point, (n,)."""
+        return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
+
+    @property
+    def length(self) -> float:
+        """Length in pixels."""
+        return float(self.along[-1])
+
+    def near(self, reach: float) -> tuple[FloatArray, FloatArray]:
+        """Lengths and points up to `reach` from the cut, at least three."""
+        count = max(3, int(np.searchsorted(self.along, reach, side="right")))
+        return self.along[:count], self.points[:count]
+
+    @cached_property
+    def model(self) -> FloatArray:
+        """Coefficients (3, 2) of a quadratic in the length from the cut (negative towards the junction)."""
+        along, points = self.near(_ARM * self.width_px)
+        degree = 2 if along[-1] > 1.2 * self.width_px else 1
+        return np.vstack([polynomial(along, points, degree), np.zeros((2 - degree, 2))])
+
+    def at(self, along: float) -> tuple[FloatArray, FloatArray]:
+        """Place and outward unit direction on the model."""
+        a, b, c = self.model
+        return a + along * (b + along * c), unit(b + 2 * along * c)
+
+
+@dataclass(frozen=True, eq=False)
+class Ending:
+    """How a strand leaves a junction: outward unit tangent, points that lead to the cut, and the cut."""
+
+    tangent: FloatArray
+    lead: FloatArray
+    cut: int
+
+
+def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray:
+    """Least-squares coefficients (degree + 1, 2), lowest first."""
+    scale = max(float(np.abs(along).max()), 1e-9)
+    powers = np.vander(along / scale, degree + 1, increasing=True)
+    normal = powers.T @ powers + 1e-12 * np.eye(degree + 1)
+    solution = np.linalg.solve(normal, powers.T @ points)
+    return solution / scale ** np.arange(degree + 1)[:, None]
+
+
+def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
+    """The arm of a strand at one end: from its first three clean points on, or its middle if it has none."""
+    points = line.points if end == 0 else line.points[::-1]
+    clean = line.clean if end == 0 else line.clean[::-1]
+    along = line.along if end == 0 else line.along[-1] - line.along[::-1]
+    run = clean[:-2] & clean[1:-1] & clean[2:]
+    first = int(np.argmax(run)) if run.any() else -1
+    if first >= 0:
+        first = int(np.searchsorted(along, along[first] + _MARGIN * width_px))
+        stop = first + 1
+        while stop < len(points) and clean[stop]:
+            stop += 1
+        if stop - first < 4 and first + 4 <= len(points):
+            stop = first + 4
+    if first < 0 or stop - first < 4:
+        first, stop = len(points) // 3, max(len(points) - len(points) // 3, len(points) // 3 + 2)
+    return Arm(strand, end, first, points[first:stop], width_px)
+
+
+def arms_at(net: Network, lines: dict[int, Line], node: int, width_px: float) -> list[Arm]:
+    """The arms of a node."""
+    return [arm(lines[strand], strand, end, width_px) for strand, end in net.ends_at(node)]
+
+
+def turn(a: Arm, b: Arm) -> float:
+    """How much a wire would bend that leaves by `b` after arriving by `a`, in radians."""
+    chord = b.points[0] - a.points[0]
+    gap = float(np.linalg.norm(chord))
+    straight = angle(-a.at(0.0)[1], chord) + angle(chord, b.at(0.0)[1]) if gap > 1e-9 else math.pi
+    reach = -min(gap / 2, 1.5 * a.width_px)
+    extrapolated = angle(-a.at(reach)[1], b.at(reach)[1])
+    return min(straight, extrapolated + straight / 4)
+
+
+def angle(a: FloatArray, b: FloatArray) -> float:
+    """Angle between two directions, 0…π."""
+    return abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
+
+
+def pair(arms: list[Arm], limit: float = _PAIR_RAD) -> list[tuple[int, int]]:
+    """The pairs of arms that continue each other, by the least sum of squared turns; others stay single.
+
+    A single arm costs as much as a turn at the limit.
+    """
+    cost = {
+        (i, j): turn(arms[i], arms[j]) ** 2 for i in range(len(arms)) for j in range(i + 1, len(arms))
+    }
+    allowed = {pair_: value for pair_, value in cost.items() if value < limit**2}
+
+    def best(free: tuple[int, ...]) -> tuple[float, list[tuple[int, int]]]:
+        if len(free) < 2:
+            return limit**2 / 2 * len(free), []
+        first, rest = free[0], free[1:]
+        value, pairs = best(rest)
+        value += limit**2 / 2
+        for other in rest:
+            if (first, other) in allowed:
+                inner, found = best(tuple(k for k in rest if k != other))
+                if inner + allowed[first, other] < value:
+                    value, pairs = inner + allowed[first, other], [(first, other), *found]
+        return value, pairs
+
+    if len(arms) > 10:
+        return _greedy(allowed)
+    return best(tuple(range(len(arms))))[1]
+
+
+def _greedy(allowed: dict[tuple[int, int], float]) -> list[tuple[int, int]]:
+    taken: set[int] = set()
+    pairs = []
+    for i, j in sorted(allowed, key=lambda key: (allowed[key], key)):
+        if i not in taken and j not in taken:
+            taken |= {i, j}
+            pairs.append((i, j))
+    return pairs
+
+
+@dataclass(frozen=True, eq=False)
+class Through:
+    """One curve through two arms: quartic in the length, zero midway between the cuts."""
+
+    coefficients: FloatArray
+    gap: float
+
+    def at(self, along: float) -> tuple[FloatArray, FloatArray]:
+        """Place and unit direction (from the first arm to the second)."""
+        powers = along ** np.arange(len(self.coefficients))
+        slopes = np.arange(1, len(self.coefficients)) * powers[:-1]
+        return powers @ self.coefficients, unit(slopes @ self.coefficients[1:])
+
+    def foot(self, point: FloatArray, along: float) -> float:
+        """Where the curve comes nearest to a point, starting the search at `along`."""
+        for _ in range(3):
+            place, direction = self.at(along)
+            step = float((point - place) @ direction)
+            along = float(np.clip(along + step, -0.75 * self.gap, 0.75 * self.gap))
+        return along
+
+
+def through(a: Arm, b: Arm) -> Through:
+    """The curve through two arms that continue each other."""
+    gap = float(np.linalg.norm(b.points[0] - a.points[0]))
+    reach = max(_ARM * a.width_px, 0.6 * gap)
+    along_a, points_a = a.near(reach)
+    along_b, points_b = b.near(reach)
+    shortest = min(along_a[-1], along_b[-1]) / a.width_px
+    degree = 4 if shortest > 1.5 else 3 if shortest > 0.7 else 2
+    along = np.concatenate([-along_a - gap / 2, along_b + gap / 2])
+    return Through(polynomial(along, np.vstack([points_a, points_b]), degree), gap)
+
+
+def place(arms: list[Arm], around: FloatArray) -> tuple[FloatArray, list[Ending]]:
+    """The point where the arms meet, and how each leaves it.
+
+    The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
+    to the extrapolated single arms (0.3), and weakly to `around`.
+    """
+    pairs = pair(arms)
+    curves = [through(arms[i], arms[j]) for i, j in pairs]
+    single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
+    point = around
+    feet = [0.0] * len(curves)
+    for _ in range(4):
+        matrix, right = 0.01 * np.eye(2), 0.01 * point
+        for k, curve in enumerate(curves):
+            feet[k] = curve.foot(point, feet[k])
+            matrix, right = _pulled(matrix, right, *curve.at(feet[k]), 1.0)
+        for k in single:
+            matrix, right = _pulled(matrix, right, *_extrapolated(arms[k], point), 0.3)
+        point = np.linalg.solve(matrix, right)
+    endings: dict[int, Ending] = {}
+    for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):
+        foot_now = curve.foot(point, foot)
+        direction = curve.at(foot_now)[1]
+        offset = point - curve.at(foot_now)[0]
+        endings[i] = Ending(-direction, _lead(curve, foot_now, -curve.gap / 2, offset, arms[i]), arms[i].cut)
+        endings[j] = Ending(direction, _lead(curve, foot_now, curve.gap / 2, offset, arms[j]), arms[j].cut)
+    through_tangents = [endings[k].tangent for k in endings]
+    for k in single:
+        endings[k] = _single_ending(arms[k], point, through_tangents)
+    return point, [endings[k] for k in range(len(arms))]
+
+
+def _pulled(
+    matrix: FloatArray, right: FloatArray, on: FloatArray, direction: FloatArray, weight: float
+) -> tuple[FloatArray, FloatArray]:
+    normal = np.array([-direction[1], direction[0]])
+    outer = weight * np.outer(normal, normal)
+    return matrix + outer, right + outer @ on
+
+
+def _extrapolated(single: Arm, point: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Place and direction of the arm's model nearest to a point before its cut."""
+    along = 0.0
+    for _ in range(3):
+        on, direction = single.at(along)
+        along = float(np.clip(along + (point - on) @ direction, -4 * single.width_px, 0.0))
+    return single.at(along)
+
+
+def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -> Ending:
+    on, direction = _extrapolated(single, point)
+    start = single.points[0]
+    gap = float(np.linalg.norm(start - point))
+    for tangent in tangents:
+        if angle(tangent, direction) < _SNAP_RAD:
+            return Ending(tangent, np.zeros((0, 2)), single.cut)
+    if np.linalg.norm(on - point) > 0.3 * gap:
+        # The extrapolation misses the junction: a plain line from there is the better guess.
+        direction = unit(start - point) if gap > 1e-6 else direction
+    return Ending(direction, np.zeros((0, 2)), single.cut)
+
+
+def _lead(curve: Through, foot: float, cut: float, offset: FloatArray, to: Arm) -> FloatArray:
+    """Points on the curve between the junction and the cut, the junction's offset fading out."""
+    count = int(abs(cut - foot) / max(to.width_px / 4, 1.0))
+    if count < 2 or (cut - foot) * cut <= 0:
+        return np.zeros((0, 2))
+    share = np.arange(1, count) / count
+    powers = (foot + share * (cut - foot))[:, None] ** np.arange(len(curve.coefficients))
+    return powers @ curve.coefficients + (1 - share)[:, None] * offset
