@@ -11,9 +11,10 @@ from wrapit.drawing.assembly import Piece, assemble, placement
 from wrapit.drawing.centring import Line, centre_lines
 from wrapit.drawing.cleanup import Radii, contract_short, drop_small_loops, keep_largest, prune_spurs
 from wrapit.drawing.image import load_grey
+from wrapit.drawing.corners import split_corners
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink, find_ink
-from wrapit.drawing.junctions import Ending, arms_at, place
+from wrapit.drawing.junctions import PAIR_RAD, Ending, arms_at, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Network
 from wrapit.drawing.skeleton import network, thin
@@ -41,6 +42,7 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     drop_small_loops(net, width_px)
     keep_largest(net)
     lines = centre_lines(net, ink, width_px)
+    split_corners(net, lines, width_px, tracing.corner_angle)
     pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
     where = placement([piece.curve for piece in pieces], size_mm, flip=True)
     drawing = assemble(net.nodes, pieces, where, width=width_px, changes=net.changes, pixel_frame=True)
@@ -57,7 +59,8 @@ def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tol
         elif len(arms) == 2 and arms[0].strand == arms[1].strand:
             _seam(net, lines, node, endings, width_px)
         else:
-            net.nodes[node], found = place(arms, net.nodes[node])
+            limit = 0.0 if len(arms) == 2 else PAIR_RAD
+            net.nodes[node], found = place(arms, net.nodes[node], limit)
             for arm_, ending in zip(arms, found, strict=True):
                 endings[arm_.strand, arm_.end] = ending
     strokes = [
@@ -88,5 +91,7 @@ def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) 
     inner = slice(first.cut, stop)
     keep = line.clean[inner] if line.clean[inner].mean() > 0.6 else slice(None)
     middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
-    points = np.vstack([net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]])
+    points = np.vstack(
+        [net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]]
+    )
     return Stroke(points, first.tangent, -last.tangent)

@@ -16,7 +16,7 @@ from wrapit.geometry import FloatArray, unit
 _ARM = 3.0
 _MARGIN = 0.1
 _SNAP_RAD = math.radians(20)
-_PAIR_RAD = math.radians(40)
+PAIR_RAD = math.radians(40)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +114,12 @@ def angle(a: FloatArray, b: FloatArray) -> float:
     return abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
 
 
-def pair(arms: list[Arm], limit: float = _PAIR_RAD) -> list[tuple[int, int]]:
+def pair(arms: list[Arm], limit: float = PAIR_RAD) -> list[tuple[int, int]]:
     """The pairs of arms that continue each other, by the least sum of squared turns; others stay single.
 
     A single arm costs as much as a turn at the limit.
     """
-    cost = {
-        (i, j): turn(arms[i], arms[j]) ** 2 for i in range(len(arms)) for j in range(i + 1, len(arms))
-    }
+    cost = {(i, j): turn(arms[i], arms[j]) ** 2 for i in range(len(arms)) for j in range(i + 1, len(arms))}
     allowed = {pair_: value for pair_, value in cost.items() if value < limit**2}
 
     def best(free: tuple[int, ...]) -> tuple[float, list[tuple[int, int]]]:
@@ -186,13 +184,13 @@ def through(a: Arm, b: Arm) -> Through:
     return Through(polynomial(along, np.vstack([points_a, points_b]), degree), gap)
 
 
-def place(arms: list[Arm], around: FloatArray) -> tuple[FloatArray, list[Ending]]:
+def place(arms: list[Arm], around: FloatArray, limit: float = PAIR_RAD) -> tuple[FloatArray, list[Ending]]:
     """The point where the arms meet, and how each leaves it.
 
     The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
     to the extrapolated single arms (0.3), and weakly to `around`.
     """
-    pairs = pair(arms)
+    pairs = pair(arms, limit)
     curves = [through(arms[i], arms[j]) for i, j in pairs]
     single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
     point = around

@@ -37,7 +37,7 @@ def thin(mask: BoolImage) -> Skeleton:
     rim = _rim(mask)
     skeleton = _measured(morphology.skeletonize(mask), rim)
     reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::3])
-    if reach.max() > 1.4 * max(skeleton.width_px, 2 * skeleton.distance.max()):
+    if reach.max() > max(skeleton.width_px + 1, 1.2 * skeleton.distance.max()):
         skeleton = _measured(morphology.skeletonize(mask, method="lee") > 0, rim)
     return skeleton
 

@@ -1,0 +1,208 @@
+"""Corners along a stroke: sharp ones become junctions, gentle ones only get their apex back."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wrapit.drawing.centring import Line, lengths
+from wrapit.drawing.junctions import angle, arm, polynomial
+from wrapit.drawing.network import Network
+from wrapit.geometry import FloatArray, unit
+
+# In stroke widths.
+_NEAR = 0.8
+_FAR = 2.6
+_PROBE = 1.7
+_LEAST = 0.45
+# A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one.
+_ROUND = 0.7
+_SEEN_RAD = math.radians(28)
+
+
+@dataclass(frozen=True, eq=False)
+class Corner:
+    """A corner at `apex`: the points before index `before` and from `after` on are the sides."""
+
+    apex: FloatArray
+    before: int
+    after: int
+    turn_rad: float
+
+
+def find_corners(line: Line, width_px: float, first: int, last: int) -> list[Corner]:
+    """The corners of a line between two of its points, in walking order."""
+    low, high = line.along[first], line.along[last]
+    found: list[Corner] = []
+    candidates = _candidates(line, width_px, low, high)
+    for k, place in enumerate(candidates):
+        start = max(low, candidates[k - 1] + _LEAST * width_px if k else low, place - _FAR * width_px)
+        end = candidates[k + 1] - _LEAST * width_px if k + 1 < len(candidates) else high
+        end = min(high, end, place + _FAR * width_px)
+        corner = _corner(line, width_px, place, start, end)
+        if corner is not None and (not found or corner.before > found[-1].after):
+            found.append(corner)
+    return found
+
+
+def _candidates(line: Line, width_px: float, low: float, high: float) -> list[float]:
+    """Lengths along the line where it turns most."""
+    along = line.along
+    inner = np.flatnonzero((along >= low + 1.25 * width_px) & (along <= high - 1.25 * width_px))
+    if not len(inner):
+        return []
+
+    def at(shift: float) -> FloatArray:
+        s = np.clip(along[inner] + shift * width_px, low, high)
+        return np.column_stack([np.interp(s, along, line.points[:, k]) for k in (0, 1)])
+
+    before, after = at(-_NEAR) - at(-_PROBE), at(_PROBE) - at(_NEAR)
+    turn = np.abs(
+        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
+    )
+    reach = max(1, int(width_px / max(float(np.median(np.diff(along))), 1e-6)))
+    padded = np.pad(turn, reach)
+    peak = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+    tops = inner[(turn == peak) & (turn > _SEEN_RAD)]
+    places: list[float] = []
+    for top in tops:
+        # Where the line turns by the same angle over a stretch, its middle.
+        if not places or along[top] - places[-1] > width_px:
+            places.append(float(along[top]))
+    return places
+
+
+def _corner(line: Line, width_px: float, place: float, start: float, end: float) -> Corner | None:
+    along = line.along - place
+    near = min(_NEAR * width_px, 0.6 * (place - start), 0.6 * (end - place))
+    sides = []
+    for side in ((along >= start - place) & (along <= -near), (along >= near) & (along <= end - place)):
+        chosen = np.flatnonzero(side & line.clean)
+        if len(chosen) < 4 or np.ptp(along[chosen]) < _LEAST * width_px:
+            return None
+        degree = 2 if np.ptp(along[chosen]) > 1.2 * width_px else 1
+        sides.append((chosen, polynomial(along[chosen], line.points[chosen], degree)))
+    crossing = _crossing(sides[0][1], sides[1][1], width_px)
+    if crossing is None:
+        return None
+    apex, arriving, leaving = crossing
+    turn = angle(arriving, leaving)
+    off = float(np.linalg.norm(line.points - apex, axis=1).min())
+    sharpness = width_px * (1 / max(math.cos(turn / 2), 0.05) - 1)
+    if turn < _SEEN_RAD or off > 1.5 * width_px or off > _ROUND * sharpness + 0.05 * width_px:
+        return None
+    return Corner(apex, int(sides[0][0][-1]) + 1, int(sides[1][0][0]), turn)
+
+
+def _crossing(
+    before: FloatArray, after: FloatArray, width_px: float
+) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Where two parametric polynomials meet near their zero, and their directions there."""
+    s, t = 0.0, 0.0
+    limit = 1.6 * width_px
+    for _ in range(6):
+        p, dp = _value(before, s)
+        q, dq = _value(after, t)
+        matrix = np.column_stack([dp, -dq])
+        if abs(np.linalg.det(matrix)) < 1e-3 * np.linalg.norm(dp) * np.linalg.norm(dq):
+            return None
+        step = np.linalg.solve(matrix, q - p)
+        s, t = float(np.clip(s + step[0], -limit, limit)), float(np.clip(t + step[1], -limit, limit))
+    p, dp = _value(before, s)
+    q, dq = _value(after, t)
+    if np.linalg.norm(p - q) > 0.05 * width_px:
+        return None
+    return (p + q) / 2, unit(dp), unit(dq)
+
+
+def _value(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:
+    powers = at ** np.arange(len(coefficients))
+    slopes = np.arange(1, len(coefficients)) * powers[:-1]
+    return powers @ coefficients, slopes @ coefficients[1:]
+
+
+def split_corners(net: Network, lines: dict[int, Line], width_px: float, corner_rad: float) -> None:
+    """Makes a node of each corner sharper than `corner_rad`; gentler ones become points of their line."""
+    for strand in list(net.strands):
+        s = net.strands[strand]
+        closed = s.start == s.end and net.degree(s.start) == 2
+        line = lines[strand]
+        if closed:
+            line = lines[strand] = line.turned(_flattest(line, width_px))
+            net.nodes[s.start] = line.points[0]
+            first, last = 0, len(line.points) - 1
+        else:
+            first = arm(line, strand, 0, width_px).cut
+            last = len(line.points) - 1 - arm(line, strand, 1, width_px).cut
+        if last - first < 8:
+            continue
+        corners = find_corners(line, width_px, first, last)
+        if corners:
+            _split(net, lines, strand, corners, corner_rad)
+
+
+def _split(
+    net: Network, lines: dict[int, Line], strand: int, corners: list[Corner], corner_rad: float
+) -> None:
+    s, line = net.strands[strand], lines[strand]
+    parts, stretch, start = [], [], 0
+    for corner in corners:
+        stretch.append(slice(start, corner.before))
+        start = corner.after
+        if corner.turn_rad >= corner_rad:
+            parts.append((stretch, corner.apex))
+            stretch = []
+        else:
+            stretch.append(corner.apex)
+    stretch.append(slice(start, len(line.points)))
+    nodes = [s.start, *(net.add_node(apex) for _, apex in parts), s.end]
+    pieces = [_joined(line, items) for items in [*(items for items, _ in parts), stretch]]
+    if nodes[0] == nodes[-1] and net.degree(nodes[0]) == 2 and len(pieces) > 1:
+        # A closed loop with corners needs its seam no longer.
+        pieces[0] = _after(pieces.pop(), pieces[0])
+        nodes[0] = nodes[-2]
+        del nodes[-1]
+    net.drop_strand(strand)
+    del lines[strand]
+    for piece, start_node, end_node in zip(pieces, nodes[:-1], nodes[1:], strict=True):
+        lines[net.add_strand(start_node, end_node, piece.points)] = piece
+    net.drop_lonely()
+
+
+def _joined(line: Line, items: list[slice | FloatArray]) -> Line:
+    """A line from stretches of another, with the apexes of gentle corners between them."""
+    points, width, clean = [], [], []
+    for item in items:
+        if isinstance(item, slice):
+            points.append(line.points[item])
+            width.append(line.width[item])
+            clean.append(line.clean[item])
+        else:
+            points.append(item[None])
+            width.append(np.array([np.nan]))
+            clean.append(np.array([True]))
+    chain = np.concatenate(points)
+    return Line(chain, np.concatenate(width), np.concatenate(clean), lengths(chain))
+
+
+def _after(first: Line, second: Line) -> Line:
+    chain = np.concatenate([first.points, second.points[1:]])
+    return Line(
+        chain,
+        np.concatenate([first.width, second.width[1:]]),
+        np.concatenate([first.clean, second.clean[1:]]),
+        lengths(chain),
+    )
+
+
+def _flattest(line: Line, width_px: float) -> int:
+    """The point of a closed line around which it turns least."""
+    ring = line.points[:-1]
+    reach = max(1, min(int(2 * width_px / max(line.length / len(ring), 1e-6)), len(ring) // 3))
+    before, after = ring - np.roll(ring, reach, axis=0), np.roll(ring, -reach, axis=0) - ring
+    turn = np.abs(
+        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
+    )
+    return int(np.argmin(np.round(turn, 6)))
