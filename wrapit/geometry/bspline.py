@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,7 +14,7 @@ from wrapit.geometry.arrays import FloatArray, locked
 from wrapit.geometry.bezier import BezierChain
 
 # A joint pole nearer than this (mm) to the place that one smooth spline gives it is dropped.
-SMOOTH_JOINT_MM = 1e-8
+SMOOTH_JOINT_MM = 5e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,11 +45,11 @@ class BSpline:
 
     def at(self, u: FloatArray) -> FloatArray:
         """Points at parameters (m,): (m, 2)."""
-        return self._scipy(u)
+        return self._pieces(u)
 
     def derivative(self, u: FloatArray, order: int = 1) -> FloatArray:
         """Derivatives at parameters (m,): (m, 2)."""
-        return self._scipy.derivative(order)(u)
+        return self._pieces.derivative(order)(u)
 
     def curvature(self, u: FloatArray) -> FloatArray:
         """Signed curvature at parameters (m,), positive where the curve turns left."""
@@ -57,10 +58,15 @@ class BSpline:
         return (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
 
     @cached_property
-    def _scipy(self) -> Any:
+    def _pieces(self) -> Any:
+        """The same curve as polynomials between the breaks: these have derivatives at corners too."""
         from scipy.interpolate import BSpline as ScipyBSpline
+        from scipy.interpolate import PPoly
 
-        return ScipyBSpline(self.knots, self.poles, self.degree)
+        spline = ScipyBSpline(self.knots, self.poles, self.degree)
+        orders = range(self.degree, -1, -1)
+        taylor = [spline(self.breaks[:-1], nu=order) / math.factorial(order) for order in orders]
+        return PPoly(np.array(taylor), self.breaks)
 
 
 def from_chain(chain: BezierChain) -> BSpline:

@@ -20,9 +20,8 @@ FOLD_RAD = math.radians(175)  # a wire laid back over itself is folded, not roun
 
 @dataclass(frozen=True)
 class Corner:
-    """A rounded bend between traversals `index` and `index` + 1 of a trail."""
+    """A rounded bend."""
 
-    index: int
     at_mm: float
     bend_rad: float
     radius_mm: float
@@ -51,9 +50,10 @@ class _Blend:
 def join(curves: Sequence[BezierChain], min_radius_mm: float) -> Joined:
     """One chain, G1 but at folds; bends become arcs of `min_radius_mm` where there is room.
 
-    Each curve starts where the one before ends.
+    Each curve starts where the one before ends. Kinks inside a curve are rounded like those between curves.
     """
-    pieces = _aligned(curves)
+    split = [_split_at_kinks(curve) for curve in curves]
+    pieces = _aligned([piece for group in split for piece in group])
     blends = [_blend(before, after, min_radius_mm) for before, after in itertools.pairwise(pieces)]
     trims = [blend.trim_mm for blend in blends]
     chain: list[BezierChain] = []
@@ -67,11 +67,14 @@ def join(curves: Sequence[BezierChain], min_radius_mm: float) -> Joined:
             chain += blend.curves
             at_mm += 2 * half
     corners = tuple(
-        Corner(index, joints_mm[index + 1], bend_rad(*pair), blend.radius_mm, blend.deviation_mm)
-        for index, (pair, blend) in enumerate(zip(itertools.pairwise(pieces), blends, strict=True))
+        Corner(joint_mm, bend_rad(*pair), blend.radius_mm, blend.deviation_mm)
+        for joint_mm, pair, blend in zip(joints_mm[1:], itertools.pairwise(pieces), blends, strict=True)
         if blend.curves
     )
-    return Joined(_connected(chain), tuple(itertools.pairwise([*joints_mm, at_mm])), corners)
+    bounds_mm = [*joints_mm, at_mm]
+    firsts = itertools.accumulate((len(group) for group in split), initial=0)
+    spans_mm = tuple(itertools.pairwise(bounds_mm[first] for first in firsts))
+    return Joined(_connected(chain), spans_mm, corners)
 
 
 def bend_rad(before: BezierChain, after: BezierChain) -> float:
@@ -84,17 +87,28 @@ def _turning(arriving: FloatArray, leaving: FloatArray) -> float:
     return abs(math.atan2(float(cross), float(arriving @ leaving)))
 
 
+def _split_at_kinks(curve: BezierChain) -> list[BezierChain]:
+    cubics = [BezierChain(points[None]) for points in curve.points]
+    kinks = [
+        index + 1
+        for index, pair in enumerate(itertools.pairwise(cubics))
+        if bend_rad(*pair) >= SMOOTH_BEND_RAD
+    ]
+    return [BezierChain(curve.points[a:b]) for a, b in itertools.pairwise([0, *kinks, len(curve)])]
+
+
 def _aligned(curves: Sequence[BezierChain]) -> list[BezierChain]:
-    """The curves with handles turned to one direction where two of them differ by noise only."""
-    points = [curve.points.copy() for curve in curves]
-    for before, after, joint in zip(points, points[1:], itertools.pairwise(curves), strict=False):
-        arriving, leaving = joint[0].end_tangent, joint[1].start_tangent
-        if _turning(arriving, leaving) < SMOOTH_BEND_RAD:
-            direction = unit(arriving + leaving)
-            at = before[-1, 3]
-            before[-1, 2] = at - direction * np.linalg.norm(at - before[-1, 2])
-            after[0, 1] = at + direction * np.linalg.norm(after[0, 1] - at)
-    return [BezierChain(array) for array in points]
+    """The curves with handles turned to one direction wherever they differ by noise only."""
+    points = np.concatenate([curve.points for curve in curves])
+    cubics = [BezierChain(cubic[None]) for cubic in points]
+    for index, (before, after) in enumerate(itertools.pairwise(cubics)):
+        if bend_rad(before, after) < SMOOTH_BEND_RAD:
+            direction = unit(before.end_tangent + after.start_tangent)
+            at = before.end
+            points[index, 2] = at - direction * np.linalg.norm(at - points[index, 2])
+            points[index + 1, 1] = at + direction * np.linalg.norm(points[index + 1, 1] - at)
+    firsts = itertools.accumulate((len(curve) for curve in curves), initial=0)
+    return [BezierChain(points[a:b]) for a, b in itertools.pairwise(firsts)]
 
 
 def _blend(before: BezierChain, after: BezierChain, min_radius_mm: float) -> _Blend:
