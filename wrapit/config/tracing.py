@@ -26,5 +26,8 @@ class TracingConfig(Block):
     components: Literal["largest", "join"] = "largest"
     """A drawing in several pieces: keep the largest, or join near ones by the shortest extra segment."""
 
+    filled: Literal["refuse", "outline"] = "refuse"
+    """Filled shapes: refuse them (they are no lines), or trace their outlines as lines."""
+
     pixel_limit: int = Field(default=120_000_000, gt=0)
     """Larger images are refused before they are decoded."""

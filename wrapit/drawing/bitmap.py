@@ -7,19 +7,27 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.assembly import Piece, assemble, placement
+from wrapit.drawing.assembly import Piece, Placement, assemble, placement
 from wrapit.drawing.centring import Line, centre_lines
-from wrapit.drawing.cleanup import Radii, contract_short, drop_small_loops, keep_largest, prune_spurs
-from wrapit.drawing.image import load_grey
+from wrapit.drawing.cleanup import (
+    Radii,
+    contract_short,
+    drop_crumbs,
+    drop_small_loops,
+    keep_largest,
+    prune_spurs,
+)
 from wrapit.drawing.corners import split_corners
 from wrapit.drawing.ends import place_end
-from wrapit.drawing.ink import Ink, find_ink
+from wrapit.drawing.ink import Ink
+from wrapit.drawing.inspection import refuse_other_pictures
 from wrapit.drawing.junctions import PAIR_RAD, Ending, arms_at, place
 from wrapit.drawing.model import Drawing
-from wrapit.drawing.network import Network
-from wrapit.drawing.skeleton import network, thin
-from wrapit.errors import DrawingError, Finding
-from wrapit.geometry import unit
+from wrapit.drawing.network import Change, Network, Notice
+from wrapit.drawing.picture import Picture, read_picture
+from wrapit.drawing.skeleton import network
+from wrapit.errors import Finding
+from wrapit.geometry import BezierChain, unit
 from wrapit.geometry.fitting import Stroke, fit_all
 
 
@@ -28,25 +36,82 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
 
     Raises DrawingError where the picture can't be read or is no line drawing.
     """
-    grey, _ = load_grey(path, tracing.pixel_limit)
-    ink = find_ink(grey, str(path))
-    skeleton = thin(ink.mask)
-    if len(skeleton.pixels) < 8:
-        raise DrawingError("the picture holds no lines", str(path), "draw at least one line")
+    picture = read_picture(path, tracing)
+    ink, skeleton = picture.ink, picture.skeleton
     width_px = skeleton.width_px
     net = network(skeleton.pixels, skeleton.pairs)
     radius = Radii(skeleton.pixels, skeleton.distance)
     net.rejoin_all()
     prune_spurs(net, radius, width_px)
+    refuse_other_pictures(ink, skeleton, net, str(path))
     contract_short(net, radius, 1.0)
     drop_small_loops(net, width_px)
-    keep_largest(net)
+    drop_crumbs(net, width_px)
+    keep_largest(net, width_px)
     lines = centre_lines(net, ink, width_px)
     split_corners(net, lines, width_px, tracing.corner_angle)
     pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
+    return _drawing(net, pieces, picture, size_mm)
+
+
+def _drawing(
+    net: Network, pieces: list[Piece], picture: Picture, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    pieces = [
+        Piece(piece.start, piece.end, BezierChain(picture.source(piece.curve.points)), piece.kind)
+        for piece in pieces
+    ]
+    places = {node: picture.source(point) for node, point in net.nodes.items()}
     where = placement([piece.curve for piece in pieces], size_mm, flip=True)
-    drawing = assemble(net.nodes, pieces, where, width=width_px, changes=net.changes, pixel_frame=True)
-    return drawing, ()
+    changes = [
+        Change(
+            change.what,
+            (x, y),
+            change.length_px * picture.factor,
+            change.reason,
+        )
+        for change in net.changes
+        for x, y in [picture.source(np.array(change.at_px)).tolist()]
+    ]
+    drawing = assemble(
+        places,
+        pieces,
+        where,
+        width=picture.skeleton.width_px * picture.factor,
+        changes=changes,
+        pixel_frame=True,
+    )
+    findings = [*_about(picture), *(_finding(notice, picture, where) for notice in net.notices)]
+    return drawing, tuple(findings)
+
+
+def _about(picture: Picture) -> list[Finding]:
+    findings = []
+    width_px = picture.skeleton.width_px * picture.factor
+    if picture.light_on_dark:
+        findings.append(Finding("note", "light-on-dark", "drawing", "light lines on dark ground were traced"))
+    if picture.ink.shaded:
+        findings.append(
+            Finding("note", "uneven-paper", "drawing", "the paper is unevenly lit; its shade was divided out")
+        )
+    if width_px < 3:
+        findings.append(
+            Finding(
+                "warning",
+                "coarse-picture",
+                "drawing",
+                f"the lines are only {width_px:.1f} px wide, so junctions may be off by part of a pixel",
+                "scan at a higher resolution",
+            )
+        )
+    return findings
+
+
+def _finding(notice: Notice, picture: Picture, where: Placement) -> Finding:
+    px = picture.source(np.array(notice.at_px))
+    mm = where.points(px)
+    place = f"at ({px[0]:.0f}, {px[1]:.0f}) px, ({mm[0]:.1f}, {mm[1]:.1f}) mm"
+    return Finding(notice.level, notice.code, place, notice.message, notice.remedy)
 
 
 def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float) -> list[Piece]:

@@ -79,37 +79,54 @@ def drop_small_loops(net: Network, width_px: float) -> None:
     net.rejoin_all()
 
 
-def keep_largest(net: Network) -> list[tuple[FloatArray, float]]:
-    """Keeps the connected piece with the longest strands; returns middle and length of each other one."""
+def components(net: Network) -> list[list[int]]:
+    """The strands of each connected piece, the longest piece first."""
     group: dict[int, int] = {}
-    members: list[list[int]] = []
+    count = 0
     for seed in net.nodes:
         if seed in group:
             continue
-        queue, group[seed] = [seed], len(members)
+        queue, group[seed] = [seed], count
         for node in queue:
             for strand, _ in net.ends_at(node):
                 s = net.strands[strand]
                 for other in (s.start, s.end):
                     if other not in group:
-                        group[other] = len(members)
+                        group[other] = count
                         queue.append(other)
-        members.append(queue)
-    if len(members) < 2:
-        return []
-    inside: list[list[int]] = [[] for _ in members]
+        count += 1
+    pieces: list[list[int]] = [[] for _ in range(count)]
     for strand, s in net.strands.items():
-        inside[group[s.start]].append(strand)
-    lengths = [sum(net.length(strand) for strand in strands) for strands in inside]
-    best = int(np.argmax(lengths))
-    left_out = []
-    for index, strands in enumerate(inside):
-        if index == best:
-            continue
-        places = [net.path(strand) for strand in strands] or [net.nodes[members[index][0]][None]]
-        points = np.concatenate(places)
-        left_out.append(((points.min(axis=0) + points.max(axis=0)) / 2, lengths[index]))
+        pieces[group[s.start]].append(strand)
+    return sorted(filter(None, pieces), key=lambda strands: -sum(net.length(k) for k in strands))
+
+
+def drop_crumbs(net: Network, width_px: float) -> None:
+    """Drops specks of dirt: pieces shorter than the stroke is wide."""
+    for strands in components(net)[1:]:
+        length = sum(net.length(strand) for strand in strands)
+        if length < 1.5 * width_px:
+            net.note("speck", net.path(strands[0]).mean(axis=0), length, "no longer than the stroke is wide")
+            for strand in strands:
+                net.drop_strand(strand)
+    net.drop_lonely()
+
+
+def keep_largest(net: Network, width_px: float) -> None:
+    """Keeps the longest connected piece; a warning names each other one."""
+    for strands in components(net)[1:]:
+        length = sum(net.length(strand) for strand in strands)
+        points = np.concatenate([net.path(strand) for strand in strands])
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        net.note("piece", middle, length, "not connected to the largest piece")
+        net.tell(
+            "warning",
+            "left-out",
+            middle,
+            f"a piece of the drawing that touches nothing else is left out ({length / width_px:.0f} stroke "
+            "widths long)",
+            "connect it in the drawing, or set tracing.components to join",
+        )
         for strand in strands:
             net.drop_strand(strand)
     net.drop_lonely()
-    return left_out

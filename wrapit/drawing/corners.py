@@ -147,7 +147,9 @@ def _split(
     net: Network, lines: dict[int, Line], strand: int, corners: list[Corner], corner_rad: float
 ) -> None:
     s, line = net.strands[strand], lines[strand]
-    parts, stretch, start = [], [], 0
+    parts: list[tuple[list[slice | FloatArray], FloatArray]] = []
+    stretch: list[slice | FloatArray] = []
+    start = 0
     for corner in corners:
         stretch.append(slice(start, corner.before))
         start = corner.after

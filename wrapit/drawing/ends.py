@@ -18,7 +18,7 @@ def place_end(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
     """
     width = arm.width_px
     steps = np.arange(0.0, 3 * width, 0.5)
-    a, b, c = arm.model
+    a, b, _ = arm.model
     # The curve goes on as its tangent, a quadratic would curl.
     start, slope = a, b / max(float(np.linalg.norm(b)), 1e-9)
     places = start - steps[:, None] * slope

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from wrapit.errors import Level
 from wrapit.geometry import FloatArray
 
 
@@ -31,6 +32,17 @@ class Change:
     reason: str
 
 
+@dataclass(frozen=True)
+class Notice:
+    """Something to tell the maker, at a place in pixels."""
+
+    level: Level
+    code: str
+    at_px: tuple[float, float]
+    message: str
+    remedy: str = ""
+
+
 @dataclass(eq=False)
 class Network:
     """Nodes (places) and strands by number; numbers are never used twice."""
@@ -38,6 +50,7 @@ class Network:
     nodes: dict[int, FloatArray] = field(default_factory=dict)
     strands: dict[int, Strand] = field(default_factory=dict)
     changes: list[Change] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
     _next: int = 0
     _ends: dict[int, list[tuple[int, int]]] = field(default_factory=dict)
 
@@ -137,6 +150,10 @@ class Network:
     def note(self, what: str, at_px: FloatArray, length_px: float, reason: str) -> None:
         """Remembers what clean-up did."""
         self.changes.append(Change(what, (float(at_px[0]), float(at_px[1])), float(length_px), reason))
+
+    def tell(self, level: Level, code: str, at_px: FloatArray, message: str, remedy: str = "") -> None:
+        """Remembers something to tell the maker."""
+        self.notices.append(Notice(level, code, (float(at_px[0]), float(at_px[1])), message, remedy))
 
 
 def polyline_length(points: FloatArray) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ BoolImage = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """Pixels (n, 2) as x, y; pairs (m, 2) of neighbours; distance (n,) to the edge of the ink; stroke width."""
+    """Pixels (n, 2) as x, y; pairs (m, 2) of neighbours; distance (n,) of each to the edge of the ink."""
 
     pixels: FloatArray
     pairs: IntArray
@@ -35,10 +36,11 @@ def thin(mask: BoolImage) -> Skeleton:
     if not mask.any():
         raise ValueError("there is no ink")
     rim = _rim(mask)
-    skeleton = _measured(morphology.skeletonize(mask), rim)
+    skeletonize: Any = morphology.skeletonize
+    skeleton = _measured(skeletonize(mask), rim)
     reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::3])
     if reach.max() > max(skeleton.width_px + 1, 1.2 * skeleton.distance.max()):
-        skeleton = _measured(morphology.skeletonize(mask, method="lee") > 0, rim)
+        skeleton = _measured(skeletonize(mask, method="lee") > 0, rim)
     return skeleton
 
 
