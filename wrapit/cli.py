@@ -178,15 +178,10 @@ def _show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
         return
     if quiet:
         return
-    from wrapit.pipeline.summary import summary_lines
+    from wrapit.pipeline.summary import finding_lines, summary_lines
 
-    for finding in result.report["findings"]:
-        if verbose or finding["level"] != "note":
-            _say(
-                f"{finding['level']}: {finding['where']}: {finding['message']}; {finding['remedy']}".rstrip(
-                    "; "
-                )
-            )
+    for line in finding_lines(result, every=verbose > 0):
+        _say(line)
     for line in summary_lines(result):
         print(line)
     if verbose:

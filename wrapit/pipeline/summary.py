@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from wrapit.pipeline.build import Build
+
+SHOWN_PER_KIND = 3
 
 
 def summary_lines(result: Build) -> Iterator[str]:
@@ -25,6 +28,21 @@ def summary_lines(result: Build) -> Iterator[str]:
         yield f"jig: {_count(jig['walls'], 'wall')}, {size} mm, {jig['turn_support']:.0%} of turns held"
     if result.folder is not None:
         yield f"{'up to date' if result.up_to_date else 'written'}: {result.folder}"
+
+
+def finding_lines(result: Build, *, every: bool) -> Iterator[str]:
+    """Warnings and errors, one line each, the first few of a kind; with `every` all of them and notes."""
+    findings = [f for f in result.report["findings"] if every or f["level"] != "note"]
+    shown: Counter[str] = Counter()
+    for finding in findings:
+        shown[finding["code"]] += 1
+        if every or shown[finding["code"]] <= SHOWN_PER_KIND:
+            where = f"{finding['where']}: " if finding["where"] else ""
+            remedy = f"; {finding['remedy']}" if finding["remedy"] else ""
+            yield f"{finding['level']}: {where}{finding['message']}{remedy}"
+    for code, number in shown.items():
+        if not every and number > SHOWN_PER_KIND:
+            yield f"and {number - SHOWN_PER_KIND} more of the kind {code!r} (-v shows all, the report too)"
 
 
 def _count(number: int, noun: str) -> str:
