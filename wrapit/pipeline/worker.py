@@ -5,9 +5,11 @@ from __future__ import annotations
 import importlib
 import multiprocessing
 import os
+import signal
 import traceback
 from collections.abc import Callable, Sequence
 from multiprocessing.connection import Connection
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
@@ -77,7 +79,9 @@ class Worker:
 
 
 def _serve(connection: Connection, preload: Sequence[str]) -> None:
-    os.dup2(2, 1)  # the kernel's writers chat on stdout, which belongs to the report
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
+    with Path(os.devnull).open("w") as nowhere:
+        os.dup2(nowhere.fileno(), 1)  # the kernel's writers chat on stdout, which belongs to the report
     for module in preload:
         importlib.import_module(module)
     while True:
