@@ -43,5 +43,8 @@ class JigConfig(Block):
     min_hole: PositiveLength = 2.0
     """Smallest start hole; thicker wires get their diameter + 0.5 mm."""
 
+    tail_slot: Length = 1.5
+    """Start holes are this much longer in the direction of the wire's tail, so that it can be bent down."""
+
     stl_tolerance: PositiveLength = 0.005
     """Largest distance of the STL's facets from the true surface."""

@@ -7,13 +7,13 @@ from typing import Any, Literal
 
 from shapely import Polygon
 
-from wrapit.geometry import Region
+from wrapit.geometry import Loop, Region
 from wrapit.wires.model import Turn
 
 
 @dataclass(frozen=True, eq=False)
 class Wall:
-    """A wall blank: its outline before the wires' channels are cut from it exactly."""
+    """A wall in the plan: its polygon, channels cut, right to about 1e-3 mm; the face is made from it."""
 
     turns: tuple[Turn, ...]
     outline: Polygon
@@ -22,11 +22,15 @@ class Wall:
 
 @dataclass(frozen=True)
 class Hole:
-    """A through hole for wire ends."""
+    """A through hole for wire ends; `outline` is exact and includes the slots for the tails.
+
+    `centre` and `diameter_mm` are those of the round part; ends too near for holes of their own share one.
+    """
 
     centre: tuple[float, float]
     diameter_mm: float
     wires: tuple[str, ...]
+    outline: Loop
 
 
 @dataclass(frozen=True, eq=False)

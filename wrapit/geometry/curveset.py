@@ -1,0 +1,168 @@
+"""The nearest point on any of several curves, for thousands of points at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from wrapit.geometry.arrays import FloatArray, IntArray, unit
+from wrapit.geometry.bezier import BezierChain, evaluate, split
+
+MAX_PIECE_MM = 1.0
+MAX_PIECE_TURNING_RAD = 0.6
+_STARTS = np.linspace(0.0, 1.0, 9)
+_NEWTON_STEPS = 7
+
+
+@dataclass(frozen=True, eq=False)
+class Nearest:
+    """For each point (m,): its distance, and the curve and place on it that is nearest.
+
+    `at` is the place as piece index + parameter in the piece; `distance` is inf, `curve` -1 beyond reach.
+    """
+
+    distance: FloatArray
+    curve: IntArray
+    at: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class CurveSet:
+    """Several chains of cubics, cut into short pieces that turn little.
+
+    `pieces` (n, 4, 2) are all pieces in order, `curve` (n,) the chain each belongs to. A place on any
+    curve is one number: piece index + parameter; places grow along each curve.
+    """
+
+    pieces: FloatArray
+    curve: IntArray
+    first: IntArray
+    last: IntArray
+
+    @staticmethod
+    def of(chains: Sequence[BezierChain]) -> CurveSet:
+        """The set of these chains, in their order."""
+        parts = [_short_pieces(chain.points) for chain in chains]
+        counts = np.array([len(part) for part in parts])
+        ends = np.cumsum(counts)
+        return CurveSet(
+            np.concatenate(parts), np.repeat(np.arange(len(parts)), counts), ends - counts, ends - 1
+        )
+
+    def start_of(self, curve: int) -> float:
+        """Place of the curve's first point."""
+        return float(self.first[curve])
+
+    def end_of(self, curve: int) -> float:
+        """Place of the curve's last point."""
+        return float(self.last[curve]) + 1.0
+
+    def split_place(self, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Piece and parameter of places on the given curves; a curve's end is on its last piece."""
+        piece = np.clip(np.floor(at).astype(np.int64), self.first[curve], self.last[curve])
+        return piece, at - piece
+
+    def frame(self, curve: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Points (m, 2), unit tangents (m, 2) and signed curvatures (m,) at places."""
+        piece, t = self.split_place(curve, at)
+        cubics = self.pieces[piece]
+        point, d, dd = _values(cubics, t)
+        speed = np.linalg.norm(d, axis=1)
+        curvature = (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
+        return point, unit(d), curvature
+
+    def nearest(self, points: FloatArray, reach_mm: float) -> Nearest:
+        """The nearest place within reach of each point (m, 2)."""
+        index, piece, at, distance = self.all_near(points, reach_mm)
+        best = np.full(len(points), np.inf)
+        curve = np.full(len(points), -1, dtype=np.int64)
+        where = np.full(len(points), np.nan)
+        # Sorted by point, then distance, then piece: the first of each point wins, always the same one.
+        order = np.lexsort((piece, distance, index))
+        first = order[np.unique(index[order], return_index=True)[1]] if len(order) else order
+        best[index[first]] = distance[first]
+        curve[index[first]] = self.curve[piece[first]]
+        where[index[first]] = piece[first] + at[first]
+        return Nearest(best, curve, where)
+
+    def all_near(
+        self, points: FloatArray, reach_mm: float
+    ) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+        """Every (point, piece) pair within reach: point index, piece, parameter, distance, (k,) each."""
+        import shapely
+
+        index, piece = self._tree.query(
+            shapely.points(points), predicate="dwithin", distance=reach_mm + 2 * self._sag
+        )
+        t, distance = _project(points[index], self.pieces[piece])
+        near = distance <= reach_mm
+        return index[near], piece[near], t[near], distance[near]
+
+    @cached_property
+    def _tree(self) -> Any:
+        import shapely
+
+        lines = evaluate(self.pieces, np.linspace(0, 1, 5))
+        return shapely.STRtree(shapely.linestrings(lines))
+
+    @cached_property
+    def _sag(self) -> float:
+        ends = evaluate(self.pieces, np.linspace(0, 1, 5))
+        middles = evaluate(self.pieces, np.linspace(0.125, 0.875, 4))
+        return float(np.linalg.norm(middles - (ends[:, 1:] + ends[:, :-1]) / 2, axis=2).max()) + 1e-6
+
+
+def _short_pieces(cubics: FloatArray) -> FloatArray:
+    """The cubics (n, 4, 2), each cut in 1, 2, 4 … equal parts until short and nearly straight."""
+    parts = []
+    for cubic in cubics:
+        legs = np.diff(cubic, axis=0)
+        length = float(np.linalg.norm(legs, axis=1).sum())
+        directions = legs[np.linalg.norm(legs, axis=1) > 1e-9 * max(length, 1e-9)]
+        turning = 0.0
+        if len(directions) > 1:
+            a, b = directions[:-1], directions[1:]
+            crosses = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+            turning = float(np.abs(np.arctan2(crosses, (a * b).sum(axis=1))).sum())
+        need = max(length / MAX_PIECE_MM, turning / MAX_PIECE_TURNING_RAD, 1.0)
+        part = cubic[None]
+        for _ in range(int(np.ceil(np.log2(need)))):
+            left, right = split(part, 0.5)
+            part = np.stack([left, right], axis=1).reshape(-1, 4, 2)
+        parts.append(part)
+    return np.concatenate(parts)
+
+
+def _values(cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Point, first and second derivative of cubic i at t[i]: (m, 2) each."""
+    s = (1 - t)[:, None]
+    t = t[:, None]
+    p0, p1, p2, p3 = (cubics[:, k] for k in range(4))
+    point = s**3 * p0 + 3 * s**2 * t * p1 + 3 * s * t**2 * p2 + t**3 * p3
+    first = 3 * (s**2 * (p1 - p0) + 2 * s * t * (p2 - p1) + t**2 * (p3 - p2))
+    second = 6 * (s * (p2 - 2 * p1 + p0) + t * (p3 - 2 * p2 + p1))
+    return point, first, second
+
+
+def _project(points: FloatArray, cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Parameter and distance of the nearest point of cubic i to point i: best of nine, then Newton."""
+    if not len(points):
+        return np.empty(0), np.empty(0)
+    s = 1 - _STARTS
+    basis = np.stack([s**3, 3 * s**2 * _STARTS, 3 * s * _STARTS**2, _STARTS**3])
+    starts = np.einsum("kt,nkd->ntd", basis, cubics)
+    t = _STARTS[((starts - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)]
+    for _ in range(_NEWTON_STEPS):
+        point, d, dd = _values(cubics, t)
+        apart = point - points
+        slope = (apart * d).sum(axis=1)
+        bend = (d * d).sum(axis=1)
+        full = bend + (apart * dd).sum(axis=1)
+        # Gauss-Newton where the full second derivative would lead uphill.
+        step = slope / np.where(full > 0.1 * bend, full, np.maximum(bend, 1e-18))
+        t = np.clip(t - np.clip(step, -0.2, 0.2), 0.0, 1.0)
+    return t, np.linalg.norm(_values(cubics, t)[0] - points, axis=1)

@@ -1,0 +1,86 @@
+"""Start holes: where the wires' ends go through the plate."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig
+from wrapit.geometry import Arc, FloatArray, Line, Loop, unit
+from wrapit.geometry.outlines import Outliner
+from wrapit.jig.course import Course
+from wrapit.jig.model import Hole
+
+HOLE_OVER_WIRE_MM = 0.5
+WEB_MM = 0.8  # holes with less plate between them become one
+FOOT_MM = 0.3  # between a hole's rim and a wall's foot
+_PAD_MM, _SLACK_MM = 3e-4, 1.2e-3
+
+
+def start_holes(course: Course, config: JigConfig) -> tuple[Hole, ...]:
+    """A hole at each end of each wire, with a slot along the tail; ends that meet share one hole."""
+    import shapely
+
+    diameter = max(config.min_hole, course.diameter_mm + HOLE_OVER_WIRE_MM)
+    tails = [tail for wire in course.wires for tail in _tails(wire.centreline.poles, wire.name, config)]
+    near = shapely.buffer([shapely.LineString(ends) for _, ends in tails], (diameter + WEB_MM) / 2)
+    clusters = shapely.get_parts(shapely.union_all(near))
+    clusters = sorted(clusters, key=lambda part: tuple(np.round(part.bounds, 6)))
+    holes = []
+    for cluster in clusters:
+        mine = [(name, ends) for name, ends in tails if cluster.contains(shapely.Point(ends[0]))]
+        names = tuple(dict.fromkeys(name for name, _ in mine))
+        outline = _outline([ends for _, ends in mine], diameter)
+        first = mine[0][1][0]
+        holes.append(Hole((float(first[0]), float(first[1])), diameter, names, outline))
+    return tuple(holes)
+
+
+def hole_obstacles(holes: tuple[Hole, ...]) -> Any:
+    """Where no wall may stand because of the holes."""
+    import shapely
+
+    rims = [shapely.Polygon(hole.outline.sampled(0.002)) for hole in holes]
+    return shapely.union_all(shapely.buffer(rims, FOOT_MM, quad_segs=16))
+
+
+def _tails(poles: FloatArray, name: str, config: JigConfig) -> list[tuple[str, FloatArray]]:
+    """The wire's two ends, each with the point to which its slot runs, (2, 2)."""
+    tails = []
+    for end in (poles, poles[::-1]):
+        apart = np.linalg.norm(end - end[0], axis=1)
+        outward = unit(end[0] - end[int(np.argmax(apart > 1e-6))])
+        tails.append((name, np.array([end[0], end[0] + config.tail_slot * outward])))
+    return tails
+
+
+def _outline(tails: list[FloatArray], diameter: float) -> Loop:
+    """The exact outline of holes and slots that overlap; holes that only nearly meet are joined."""
+    import shapely
+
+    starts = [ends[0] for ends in tails]
+    lines = [ends for ends in tails if np.linalg.norm(ends[1] - ends[0]) > 1e-3]
+    lines += [np.array([a, b]) for a, b in _spanning(starts) if np.linalg.norm(b - a) > 1e-3]
+    if not lines:
+        x, y = (float(value) for value in starts[0])
+        return Loop((Arc((x, y), diameter / 2, 0.0, 2 * math.pi),))
+    edges = [Line(_xy(a), _xy(b)) for a, b in lines]
+    grown = shapely.buffer([shapely.LineString(line) for line in lines], diameter / 2 + _PAD_MM, quad_segs=32)
+    whole = shapely.union_all(grown)
+    ring = shapely.Polygon(whole.exterior).exterior
+    return Outliner.of(edges, diameter / 2, _SLACK_MM).loop(shapely.Polygon(ring).normalize().exterior)
+
+
+def _spanning(points: list[FloatArray]) -> list[tuple[FloatArray, FloatArray]]:
+    """Each point after the first with the nearest one before it."""
+    pairs = []
+    for index, point in enumerate(points[1:], start=1):
+        near = min(range(index), key=lambda i: float(np.linalg.norm(points[i] - point)))
+        pairs.append((points[near], point))
+    return pairs
+
+
+def _xy(point: FloatArray) -> tuple[float, float]:
+    return float(point[0]), float(point[1])

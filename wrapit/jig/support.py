@@ -1,0 +1,74 @@
+"""What a jig really does for its wires, measured on its exact faces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
+from wrapit.geometry.polygons import polygon_of
+from wrapit.jig.blanks import face_probes
+from wrapit.jig.course import SIDES, Course
+from wrapit.jig.model import TurnSupport
+
+PROBE_STEP_MM = 0.1
+PROBE_DEPTH_MM = 0.01
+DISTANCE_STEP_MM = 0.03
+
+
+def turn_support(course: Course, walls: Sequence[Region]) -> tuple[TurnSupport, ...]:
+    """For each turn the share of its length that has wall at the right distance on the inside."""
+    import shapely
+
+    tree = shapely.STRtree([polygon_of(wall, 1e-3) for wall in walls])
+    shares = []
+    for wire in course.wires:
+        for turn in wire.turns:
+            probes = shapely.points(face_probes(course, turn, PROBE_STEP_MM, PROBE_DEPTH_MM))
+            hit = np.zeros(len(probes))
+            hit[tree.query(probes, predicate="within")[0]] = 1.0
+            sides = hit.reshape(len(SIDES[turn.inside]), -1)
+            ends = np.ones(sides.shape[1])
+            ends[[0, -1]] = 0.5
+            shares.append(TurnSupport(turn, float((sides.mean(axis=0) * ends).sum() / ends.sum())))
+    return tuple(shares)
+
+
+def total_support(support: Iterable[TurnSupport]) -> float:
+    """The supported share of the length of all these turns; 1 where there is none."""
+    lengths = [(s.turn.end_mm - s.turn.start_mm, s.share) for s in support]
+    total = sum(length for length, _ in lengths)
+    return sum(length * share for length, share in lengths) / total if total > 0 else 1.0
+
+
+def support_by_wire(support: Iterable[TurnSupport]) -> dict[str, float]:
+    """The supported share for each wire that has turns."""
+    grouped: dict[str, list[TurnSupport]] = {}
+    for one in support:
+        grouped.setdefault(one.turn.wire, []).append(one)
+    return {wire: total_support(of_wire) for wire, of_wire in grouped.items()}
+
+
+def min_wall_to_wire_mm(course: Course, walls: Sequence[Region]) -> tuple[float | None, FloatArray]:
+    """The smallest gap between any wall and any wire's surface, and the point of the wall where it is."""
+    if not walls:
+        return None, np.full(2, np.nan)
+    loops = [loop for wall in walls for loop in (wall.outer, *wall.holes)]
+    points = np.concatenate([edge_points(edge, DISTANCE_STEP_MM) for loop in loops for edge in loop.edges])
+    near = course.outliner.curves.nearest(points, course.reach_mm + 1.0)
+    closest = int(near.distance.argmin())
+    return float(near.distance[closest]) - course.diameter_mm / 2, points[closest]
+
+
+def edge_points(edge: Edge, step_mm: float) -> FloatArray:
+    """Points exactly on an edge, at most about a step apart, both ends included."""
+    if isinstance(edge, Line):
+        ends = np.array([edge.start, edge.end])
+        count = max(1, int(np.ceil(np.linalg.norm(ends[1] - ends[0]) / step_mm)))
+        return ends[0] + np.linspace(0, 1, count + 1)[:, None] * (ends[1] - ends[0])
+    if isinstance(edge, Arc):
+        count = max(2, int(np.ceil(abs(edge.sweep_rad) * edge.radius_mm / step_mm)))
+        angles = edge.start_rad + edge.sweep_rad * np.linspace(0, 1, count + 1)
+        return np.array(edge.centre) + edge.radius_mm * np.column_stack([np.cos(angles), np.sin(angles)])
+    return edge.sampled(step_mm)

@@ -1,0 +1,163 @@
+"""A plate with flat-topped terraces, pockets and through holes as ONE solid, without any boolean.
+
+The outlines don't touch one another, so the solid's boundary is known: floors, ceilings and the upright
+faces between them. They are made on shared edges and closed to a shell; nothing is intersected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wrapit.errors import KernelError
+from wrapit.geometry import Loop, Region
+from wrapit.geometry.polygons import loop_area_mm2, region_area_mm2
+from wrapit.kernel.checks import is_valid, volume_mm3
+from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
+from wrapit.kernel.guard import guarded
+
+NESTING_TOLERANCE_MM = 0.01
+# The kernel's integration along splines is good to about 3e-5; a face that is missing or flipped shows more.
+VOLUME_TOLERANCE = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Terrace:
+    """A region whose surface lies at `z_mm` instead of the plate's top: higher is a wall, lower a pocket."""
+
+    region: Region
+    z_mm: float
+
+
+def terraced_solid(
+    outline: Loop,
+    bottom_mm: float,
+    top_mm: float,
+    terraces: Sequence[Terrace],
+    through: Sequence[Loop],
+    where: str,
+) -> Any:
+    """The solid between bottom and top inside the outline, with terraces and holes that don't touch.
+
+    Raises KernelError naming `where` if the outcome is not one valid solid with the volume that the
+    outlines have by calculation.
+    """
+    with guarded("building the solid", where):
+        solid = _solid(outline, bottom_mm, top_mm, terraces, through)
+        expected = terraced_volume_mm3(outline, bottom_mm, top_mm, terraces, through)
+        got = volume_mm3(solid)
+        if not is_valid(solid):
+            raise KernelError("the solid is not valid", where, "change the size or the clearance a little")
+        if abs(got - expected) > VOLUME_TOLERANCE * expected:
+            raise KernelError(
+                f"the solid has {got:.2f} mm³ instead of {expected:.2f} mm³",
+                where,
+                "change the size or the clearance a little",
+            )
+    return solid
+
+
+def terraced_volume_mm3(
+    outline: Loop,
+    bottom_mm: float,
+    top_mm: float,
+    terraces: Sequence[Terrace],
+    through: Sequence[Loop],
+) -> float:
+    """The volume by exact areas and heights."""
+    area = abs(loop_area_mm2(outline)) - sum(abs(loop_area_mm2(hole)) for hole in through)
+    steps = sum(region_area_mm2(t.region) * (t.z_mm - top_mm) for t in terraces)
+    return area * (top_mm - bottom_mm) + steps
+
+
+def _solid(
+    outline: Loop, bottom: float, top: float, terraces: Sequence[Terrace], through: Sequence[Loop]
+) -> Any:
+    faces: list[Any] = []
+    rim = turned(outline, counter_clockwise=True)
+    floor_rim = wire_of(loop_edges(rim, bottom))
+    sides, top_rim = _upright(floor_rim, top - bottom)
+    faces += sides
+    drains, voids = [], []
+    for hole in through:
+        floor_hole = wire_of(loop_edges(turned(hole, counter_clockwise=False), bottom))
+        sides, top_hole = _upright(floor_hole, top - bottom)
+        faces += sides
+        drains.append(floor_hole)
+        voids.append((hole, top_hole))
+    faces.append(plane_face(floor_rim, drains, bottom).Reversed())
+    islands = [(outline, top_rim)]
+    for terrace in terraces:
+        outer = turned(terrace.region.outer, counter_clockwise=True)
+        foot = wire_of(loop_edges(outer, top))
+        sides, head = _upright(foot, terrace.z_mm - top)
+        faces += sides
+        voids.append((outer, foot.Reversed()))
+        heads = []
+        for hole in terrace.region.holes:
+            inner = turned(hole, counter_clockwise=False)
+            inner_foot = wire_of(loop_edges(inner, top))
+            sides, inner_head = _upright(inner_foot, terrace.z_mm - top)
+            faces += sides
+            heads.append(inner_head)
+            islands.append((inner, inner_foot.Reversed()))
+        faces.append(plane_face(head, heads, terrace.z_mm))
+    faces += _ground(islands, voids, top)
+    return _closed(faces)
+
+
+def _upright(wire: Any, height: float) -> tuple[list[Any], Any]:
+    """The faces swept by the wire, and the wire at the other end."""
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+    from OCP.gp import gp_Vec
+    from OCP.TopAbs import TopAbs_FACE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    prism = BRepPrimAPI_MakePrism(wire, gp_Vec(0, 0, height))
+    faces = []
+    explorer = TopExp_Explorer(prism.Shape(), TopAbs_FACE)
+    while explorer.More():
+        faces.append(TopoDS.Face_s(explorer.Current()))
+        explorer.Next()
+    return faces, TopoDS.Wire_s(prism.LastShape())
+
+
+def _ground(islands: list[tuple[Loop, Any]], voids: list[tuple[Loop, Any]], z: float) -> list[Any]:
+    """The plate's top: a face inside the outline and in each ring of a terrace, less what stands there."""
+    from OCP.TopoDS import TopoDS
+    from shapely import Point, Polygon
+
+    shores = [Polygon(loop.sampled(NESTING_TOLERANCE_MM)) for loop, _ in islands]
+    inside: list[list[Any]] = [[] for _ in islands]
+    for loop, wire in voids:
+        point = Point(loop.sampled(NESTING_TOLERANCE_MM)[0])
+        holders = [i for i, shore in enumerate(shores) if shore.contains(point)]
+        if not holders:
+            raise KernelError("a wall or hole lies outside the plate")
+        inside[min(holders, key=lambda i: shores[i].area)].append(TopoDS.Wire_s(wire))
+    return [
+        plane_face(TopoDS.Wire_s(shore), holes, z) for (_, shore), holes in zip(islands, inside, strict=True)
+    ]
+
+
+def _closed(faces: list[Any]) -> Any:
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
+    from OCP.BRepLib import BRepLib
+    from OCP.ShapeFix import ShapeFix_Shell
+    from OCP.TopoDS import TopoDS_Shell
+
+    shell = TopoDS_Shell()
+    builder = BRep_Builder()
+    builder.MakeShell(shell)
+    for face in faces:
+        builder.Add(shell, face)
+    fixer = ShapeFix_Shell(shell)
+    fixer.FixFaceOrientation(shell)
+    closed = fixer.Shell()
+    closed.Closed(True)
+    solid = BRepBuilderAPI_MakeSolid(closed).Solid()
+    BRepLib.OrientClosedSolid_s(solid)
+    return solid
