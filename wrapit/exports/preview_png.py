@@ -11,7 +11,8 @@ import numpy as np
 
 from wrapit.errors import ExportError
 from wrapit.geometry import FloatArray, Region
-from wrapit.geometry.pieces import chain_of, piece
+from wrapit.geometry.arclength import ArcLength
+from wrapit.geometry.pieces import chain_of
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ SUPERSAMPLING = 3
 PAPER, PLATE, PLATE_EDGE, HOLE = (250, 249, 246), (224, 224, 222), (188, 188, 186), (120, 120, 118)
 WALL, WALL_EDGE, SHADOW = (190, 193, 198), (150, 153, 158), (196, 196, 194)
 MARGIN_MM = 3.0
+PIECE_MM = 1.5  # a wire is painted in pieces this short, which can't cross themselves
 
 
 def write_preview(
@@ -101,30 +103,53 @@ def _draw_walls(
 
 
 def _draw_wire(canvas: ImageDraw.ImageDraw, view: _View, wire: Wire) -> None:
-    """The wire in pieces, each shaded from its dark rim to a light line, so that passes cover each other."""
-    chain = chain_of(wire.centreline)
-    base = np.array([int(wire.colour.lstrip("#")[index : index + 2], 16) for index in (0, 2, 4)], dtype=float)
-    shades = [
-        (1.0, 0.45 * base, 0.0),
-        (0.84, 0.85 * base, 0.0),
-        (0.55, base + 0.22 * (255 - base), 0.08),
-        (0.2, base + 0.6 * (255 - base), 0.15),
-    ]
-    cuts = np.linspace(0, chain.length, max(1, round(chain.length / max(4.0 * wire.diameter_mm, 2.0))) + 1)
-    light = np.array([-1.0, 1.0]) / np.sqrt(2) * wire.diameter_mm
-    for index, (start, end) in enumerate(itertools.pairwise(cuts)):
-        for layer, (share, colour, towards_light) in enumerate(shades):
-            # The dark rim of a piece would end across the piece before: all lighter layers begin there again.
-            begin = start if layer == 0 else cuts[max(0, index - 1)]
-            points = piece(chain, float(begin), float(end)).sampled(0.05) + towards_light * light
-            width_px = share * wire.diameter_mm * view.px_per_mm
-            _stroke(canvas, view.px(points), width_px, tuple(round(float(value)) for value in colour))
+    """The whole wire, then once more the spans that lie over others or over the wire itself."""
+    lengths = ArcLength(wire.centreline)
+    _draw_span(canvas, view, wire, lengths, 0.0, lengths.total_mm)
+    for start, end in _raised_spans(wire):
+        _draw_span(canvas, view, wire, lengths, start, end)
 
 
-def _stroke(
-    canvas: ImageDraw.ImageDraw, points: list[tuple[float, float]], width_px: float, colour: tuple[int, ...]
+def _raised_spans(wire: Wire) -> list[tuple[float, float]]:
+    """Where the wire lies clearly above the lowest layer."""
+    if not wire.lifts:
+        return []
+    at_mm, z_mm = np.array(wire.lifts).T
+    fine = np.arange(0.0, at_mm[-1], 0.05)
+    high = np.interp(fine, at_mm, z_mm) > 0.4 * wire.diameter_mm
+    edges = np.flatnonzero(np.diff(np.r_[False, high, False]))
+    return [(float(fine[a]), float(fine[b - 1])) for a, b in edges.reshape(-1, 2)]
+
+
+def _draw_span(
+    canvas: ImageDraw.ImageDraw, view: _View, wire: Wire, lengths: ArcLength, start_mm: float, end_mm: float
 ) -> None:
-    canvas.line(points, fill=colour, width=max(1, round(width_px)), joint="curve")
-    radius = width_px / 2
-    for x, y in (points[0], points[-1]):
-        canvas.ellipse((x - radius, y - radius, x + radius, y + radius), fill=colour)
+    """One pass, from its dark rim to a light line; the lighter bands reach farther, so no seam shows."""
+    from shapely import LineString
+
+    base = np.array([int(wire.colour.lstrip("#")[index : index + 2], 16) for index in (0, 2, 4)], dtype=float)
+    bands = [
+        (1.0, 0.45 * base, 0.0, 0.0),
+        (0.84, 0.85 * base, 0.0, 0.4),
+        (0.55, base + 0.22 * (255 - base), 0.08, 0.8),
+        (0.2, base + 0.6 * (255 - base), 0.15, 1.2),
+    ]
+    light = np.array([-1.0, 1.0]) / np.sqrt(2) * wire.diameter_mm
+    for share, colour, towards_light, reach in bands:
+        low = max(0.0, start_mm - reach * wire.diameter_mm)
+        high = min(lengths.total_mm, end_mm + reach * wire.diameter_mm)
+        fill = tuple(round(float(value)) for value in colour)
+        cuts = np.linspace(low, high, max(1, round((high - low) / PIECE_MM)) + 1)
+        for begin, finish in itertools.pairwise(cuts):
+            at_mm = np.linspace(max(low, begin - 0.05), finish, 24)
+            points = wire.centreline.at(lengths.parameter(at_mm)) + towards_light * light
+            outline = LineString(points).buffer(share * wire.diameter_mm / 2, cap_style="flat")
+            for part in getattr(outline, "geoms", [outline]):
+                canvas.polygon(view.px(np.array(part.exterior.coords)), fill=fill)
+        for end in (0.0, lengths.total_mm):
+            if low <= end <= high:
+                (x, y), *_ = view.px(
+                    wire.centreline.at(lengths.parameter(np.array([end]))) + towards_light * light
+                )
+                radius = share * wire.diameter_mm * view.px_per_mm / 2
+                canvas.ellipse((x - radius, y - radius, x + radius, y + radius), fill=fill)
