@@ -206,6 +206,8 @@ def _export(work: _Work, folder: Path) -> None:
         write_preview(
             folder / "preview.png", work.wires, shown.walls if shown else (), shown.plate if shown else None
         )
+        if "dxf" in work.config.outputs:
+            _export_plate(work, work.jigs, folder)
         if "guide" in work.config.outputs:
             guide = write_instructions(
                 work.solution,
@@ -216,6 +218,17 @@ def _export(work: _Work, folder: Path) -> None:
                 jigset=work.jigs,
             )
             _write(folder / "guide.html", guide)
+
+
+def _export_plate(work: _Work, jigs: JigSet, folder: Path) -> None:
+    from wrapit.exports.plate_files import write_plate_files
+    from wrapit.jig.laser_stage import build_laser_jig
+
+    config = work.config
+    laser, findings = build_laser_jig(work.wires, jigs, config.jig, config.plate)
+    work.findings += findings
+    work.report["plate"] = reports.plate_numbers(laser)
+    write_plate_files(folder, laser, config.plate)
 
 
 def _write(path: Path, text: str) -> None:

@@ -13,6 +13,7 @@ from wrapit.config import Config, lock_text
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
+from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
 from wrapit.pipeline.folder import Artifact
 from wrapit.wires.model import Wire
@@ -105,6 +106,23 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
     }
 
 
+def plate_numbers(laser: LaserJig) -> dict[str, Any]:
+    """The `plate` block: the laser-cut jig as it is drawn."""
+    checks = laser.checks
+    return {
+        "sheets": len(laser.sheets),
+        "parts": len(laser.parts),
+        "closed_contours": checks.closed_contours,
+        "kerf_mm": laser.kerf_mm,
+        "fit_mm": laser.fit_mm,
+        "cut_length_mm": _mm(checks.cut_length_mm),
+        "engraved_length_mm": _mm(checks.engraved_length_mm),
+        "min_cut_distance_mm": _optional_mm(checks.min_cut_distance_mm),
+        "min_web_mm": _optional_mm(checks.min_web_mm),
+        "wall_height_mm": _mm(laser.wall_height_mm),
+    }
+
+
 def _support(support: Sequence[Any]) -> float:
     """Supported share of the turns' arc length; a wire without turns needs none."""
     length = sum(each.turn.end_mm - each.turn.start_mm for each in support)
@@ -125,6 +143,10 @@ def artifact_list(artifacts: Sequence[Artifact]) -> list[dict[str, Any]]:
 def to_json(document: dict[str, Any]) -> str:
     """Readable JSON with a line end; refuses NaN, which JSON has no word for."""
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _optional_mm(value: float | None) -> float | None:
+    return None if value is None else _mm(value)
 
 
 def _mm(value: float) -> float:
