@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final
 
+from wrapit.config.plate import ProfileName
 from wrapit.jig.laser_model import LaserLayer
 
-ProfileName = Literal["lightburn", "boxes", "service-red", "snijlab", "plain"]
 # The order in which a laser has to work: nothing is engraved or cut on a piece that already fell out.
 ORDER: Final[tuple[LaserLayer, ...]] = ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")
 

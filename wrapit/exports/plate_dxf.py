@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from wrapit.config.plate import CurveStyle, ProfileName
 from wrapit.errors import ExportError
 from wrapit.exports.contour_edges import as_bulges, as_chain, is_circle
-from wrapit.exports.laser_profiles import ORDER, PROFILES, Look, ProfileName
+from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
 from wrapit.geometry import Arc, BezierChain, Edge
+from wrapit.geometry.biarcs import as_arcs, as_lines
 from wrapit.jig.laser_model import Contour
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
 
-def write_dxf(path: Path, contours: Iterable[Contour], profile: ProfileName = "lightburn") -> None:
+def write_dxf(
+    path: Path,
+    contours: Iterable[Contour],
+    profile: ProfileName = "lightburn",
+    curves: CurveStyle = "spline",
+    tolerance_mm: float = 0.01,
+) -> None:
     """Write the contours as a laser cutter's DXF, in the order in which they are to be worked.
 
-    Contours with curves become one SPLINE in Bézier form (each interior knot three times), contours of
-    lines and arcs one polyline, circles a CIRCLE. Colours stand on entities and on layers, because some
-    programs ignore one of the two. The same contours give the same bytes.
+    Contours with curves become one SPLINE in Bézier form (each interior knot three times), or a polyline
+    with arcs or short lines within the tolerance; contours of lines and arcs one polyline, circles a
+    CIRCLE. The profile `plain` has LINE, ARC and CIRCLE only. Colours stand on entities and on layers,
+    because some programs ignore one of the two. The same contours give the same bytes.
     Raises ExportError when the file can't be written or an audit of it finds a fault.
     """
     from ezdxf import units
     from ezdxf.filemanagement import new
 
+    if profile == "plain" and curves == "spline":
+        curves = "arc"
     with _fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
@@ -39,7 +51,8 @@ def write_dxf(path: Path, contours: Iterable[Contour], profile: ProfileName = "l
             document.layers.get(look.name).rgb = look.rgb
         space = document.modelspace()
         for contour in in_order(contours):
-            _add(space, contour, looks[contour.layer])
+            drawn = Contour(contour.layer, simplified(contour.edges, curves, tolerance_mm))
+            _add(space, drawn, looks[contour.layer], exploded=profile == "plain")
         _check(document, path)
         try:
             document.saveas(path)
@@ -49,13 +62,20 @@ def write_dxf(path: Path, contours: Iterable[Contour], profile: ProfileName = "l
             ) from error
 
 
+def simplified(edges: tuple[Edge, ...], curves: CurveStyle, tolerance_mm: float) -> tuple[Edge, ...]:
+    """The edges as the file spells curves."""
+    if curves == "spline" or is_circle(edges):
+        return edges
+    return as_arcs(edges, tolerance_mm) if curves == "arc" else as_lines(edges, tolerance_mm)
+
+
 def in_order(contours: Iterable[Contour]) -> list[Contour]:
     """Sorted by the work of their layer, otherwise as they come."""
     return sorted(contours, key=lambda contour: ORDER.index(contour.layer))
 
 
-def _add(space: Modelspace, contour: Contour, look: Look) -> None:
-    if contour.layer.startswith("CUT") and not contour.closed:
+def _add(space: Modelspace, contour: Contour, look: Look, *, exploded: bool) -> None:
+    if contour.is_cut and not contour.closed:
         raise ValueError("what is cut is closed")
     attributes: dict[str, Any] = {"layer": look.name, "color": look.aci, "true_color": _true_colour(look)}
     edges, closed = contour.edges, contour.closed
@@ -63,10 +83,28 @@ def _add(space: Modelspace, contour: Contour, look: Look) -> None:
         space.add_circle(circle.centre, circle.radius_mm, attributes)
     elif any(isinstance(edge, BezierChain) for edge in edges):
         _add_spline(space, edges, attributes, closed=closed)
+    elif exploded:
+        _add_exploded(space, edges, attributes, closed=closed)
     else:
         space.add_lwpolyline(
             as_bulges(edges, closed=closed), format="xyb", close=closed, dxfattribs=attributes
         )
+
+
+def _add_exploded(
+    space: Modelspace, edges: Sequence[Edge], attributes: dict[str, Any], *, closed: bool
+) -> None:
+    """One LINE or ARC for each edge; lines end exactly where the next edge starts."""
+    from ezdxf.math import bulge_to_arc
+
+    vertices = as_bulges(edges, closed=closed)
+    ends = vertices[1:] + (vertices[:1] if closed else [])
+    for (x, y, bulge), (u, v, _) in zip(vertices, ends, strict=False):
+        if bulge == 0:
+            space.add_line((x, y), (u, v), attributes)
+            continue
+        centre, start_rad, end_rad, radius = bulge_to_arc((x, y), (u, v), bulge)
+        space.add_arc(centre, radius, math.degrees(start_rad), math.degrees(end_rad), True, attributes)
 
 
 def _add_spline(

@@ -1,4 +1,4 @@
-"""What is engraved on the plate: where each wire runs, and its number."""
+"""What is engraved: where each wire runs, its number, and the numbers of parts."""
 
 from __future__ import annotations
 
@@ -11,52 +11,81 @@ import numpy as np
 from wrapit.geometry import BezierChain, FloatArray, Loop, Region
 from wrapit.geometry.labels import place_labels
 from wrapit.geometry.pieces import chain_of, piece
+from wrapit.jig.laser_inlays import polygon_of
 from wrapit.jig.laser_model import Contour
-from wrapit.jig.laser_text import engraved_text
+from wrapit.jig.laser_text import engraved_text, text_size_mm
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-# Engraved lines keep this distance from cuts, so that no flake breaks off between them.
-CLEAR_MM = 0.5
+# Engraved lines keep this distance from edges.
+CLEAR_MM = 0.25
 NUMBER_MM = 2.5
+LARGEST_LABEL_MM = 4.0
 _STEP_MM = 0.05
+_SHORTEST_MM = 0.5
 
 
 def plate_contours(plate: Region, walls: Sequence[Region], wires: Sequence[Wire]) -> tuple[Contour, ...]:
     """Plate and walls as closed contours, wire paths and wire numbers engraved; nothing drawn twice."""
-    loops = [loop for wall in walls for loop in (wall.outer, *wall.holes)] + list(plate.holes)
+    loops: list[Loop] = [loop for wall in walls for loop in (wall.outer, *wall.holes)] + list(plate.holes)
+    bare = Region(plate.outer, (*(wall.outer for wall in walls), *plate.holes))
     return (
-        *engraved_wires(wires, loops),
+        *engraved_wires(wires, bare),
+        *wire_numbers(wires, bare),
         *(Contour("CUT_INNER", loop.edges) for loop in loops),
         Contour("CUT_OUTER", plate.outer.edges),
     )
 
 
-def engraved_wires(wires: Sequence[Wire], openings: Sequence[Loop]) -> tuple[Contour, ...]:
-    """Wire paths and numbers, clear of the openings; what two wires share is engraved once."""
-    from shapely import union_all
-    from shapely.geometry import Polygon
-
-    keep_out = union_all([Polygon(loop.sampled(0.01)) for loop in openings]).buffer(CLEAR_MM)
-    paths = [Contour("ENGRAVE", (part,)) for chain in _runs(wires) for part in outside(chain, keep_out)]
-    return (*paths, *_numbers(wires, keep_out))
+def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
+    """Wire paths on the plate, clear of its edges; what is run along twice is engraved once."""
+    area = polygon_of(plate).buffer(-CLEAR_MM)
+    return tuple(Contour("ENGRAVE", (part,)) for chain in _runs(wires) for part in parts_inside(chain, area))
 
 
-def outside(chain: BezierChain, area: BaseGeometry) -> list[BezierChain]:
-    """The parts of the chain that lie outside the area, ends within a twentieth of a millimetre."""
-    from shapely import contains_xy
+def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
+    """The wires' numbers beside their starts, clear of edges and of one another."""
+    area = polygon_of(plate).buffer(-CLEAR_MM)
+    ink = [chain_of(wire.centreline).sampled(0.5) for wire in wires]
+    ink.append(_points_outside(area))
+    labels = place_labels([(number_of(wire), wire.ends[:1]) for wire in wires], np.vstack(ink), NUMBER_MM)
+    return tuple(stroke for label in labels for stroke in engraved_text(label.text, label.centre, NUMBER_MM))
 
-    total = chain.length
-    stations = np.linspace(0.0, total, max(2, round(total / _STEP_MM)) + 1)
-    points = _points(chain, stations)
-    free = ~contains_xy(area, points)
+
+def label_on(part: Region, text: str, *, least_mm: float, force: bool = False) -> tuple[Contour, ...]:
+    """The text in the widest place of a part, as large as fits; nothing below `least_mm` unless forced."""
+    from shapely import maximum_inscribed_circle
+
+    radius_line = maximum_inscribed_circle(polygon_of(part), 0.02)
+    centre = radius_line.coords[0]
+    width, height = text_size_mm(text, 1.0)
+    fitting_mm = 2 * (radius_line.length - CLEAR_MM) / float(np.hypot(width, height))
+    if fitting_mm < least_mm and not force:
+        return ()
+    size_mm = float(np.clip(fitting_mm, least_mm, LARGEST_LABEL_MM))
+    return engraved_text(text, (float(centre[0]), float(centre[1])), size_mm)
+
+
+def number_of(wire: Wire) -> str:
+    """`1` of `wire-01`."""
+    return wire.name.rpartition("-")[2].lstrip("0") or wire.name
+
+
+def parts_inside(chain: BezierChain, area: BaseGeometry) -> list[BezierChain]:
+    """The parts of the chain that lie inside the area, ends within a twentieth of a millimetre."""
+    from shapely import contains_xy, prepare
+
+    prepare(area)
+    stations = np.linspace(0.0, chain.length, max(2, round(chain.length / _STEP_MM)) + 1)
+    within = contains_xy(area, _points(chain, stations))
     parts = []
-    for is_free, run in itertools.groupby(range(len(stations)), key=lambda index: bool(free[index])):
+    for is_inside, run in itertools.groupby(range(len(stations)), key=lambda index: bool(within[index])):
         indices = list(run)
-        if is_free and indices[-1] - indices[0] > round(CLEAR_MM / _STEP_MM):
-            parts.append(piece(chain, float(stations[indices[0]]), float(stations[indices[-1]])))
+        start, end = float(stations[indices[0]]), float(stations[indices[-1]])
+        if is_inside and end - start >= _SHORTEST_MM:
+            parts.append(piece(chain, start, end))
     return parts
 
 
@@ -71,8 +100,7 @@ def _runs(wires: Sequence[Wire]) -> list[BezierChain]:
             if traversal.segment not in seen:
                 spans.append(span)
             seen.add(traversal.segment)
-        for start, end in _merged(spans):
-            runs.append(piece(chain, start, end))
+        runs += [piece(chain, start, end) for start, end in _merged(spans) if end - start > _STEP_MM]
     return runs
 
 
@@ -86,29 +114,14 @@ def _merged(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     return merged
 
 
-def _numbers(wires: Sequence[Wire], keep_out: BaseGeometry) -> list[Contour]:
-    """The wires' numbers beside their starts, clear of openings and of one another."""
-    ink = [chain_of(wire.centreline).sampled(0.5) for wire in wires]
-    ink.append(_filled(keep_out))
-    labels = place_labels([(number_of(wire), wire.ends[:1]) for wire in wires], np.vstack(ink), NUMBER_MM)
-    return [stroke for label in labels for stroke in engraved_text(label.text, label.centre, NUMBER_MM)]
-
-
-def number_of(wire: Wire) -> str:
-    """`1` of `wire-01`."""
-    return wire.name.rpartition("-")[2].lstrip("0") or wire.name
-
-
-def _filled(area: BaseGeometry) -> FloatArray:
-    """Points (n, 2) half a millimetre apart all over an area."""
+def _points_outside(area: BaseGeometry) -> FloatArray:
+    """Points (n, 2) half a millimetre apart in the area's box and a little around it, but not in it."""
     from shapely import contains_xy
 
-    if area.is_empty:
-        return np.zeros((0, 2))
     left, bottom, right, top = area.bounds
-    x, y = np.meshgrid(np.arange(left, right + 0.5, 0.5), np.arange(bottom, top + 0.5, 0.5))
+    x, y = np.meshgrid(np.arange(left - 3, right + 3, 0.5), np.arange(bottom - 3, top + 3, 0.5))
     points = np.column_stack([x.ravel(), y.ravel()])
-    return points[contains_xy(area, points)]
+    return points[~contains_xy(area, points)]
 
 
 def _points(chain: BezierChain, stations: FloatArray) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from functools import cache
 
 import numpy as np
 
@@ -28,17 +29,22 @@ def engraved_text(text: str, centre: tuple[float, float], height_mm: float) -> t
 
 
 def _strokes(text: str, height_mm: float) -> list[FloatArray]:
+    strokes = [np.array(stroke) * height_mm for stroke in _unit_strokes(text)]
+    if not strokes:
+        raise ValueError(f"nothing to engrave in {text!r}")
+    return strokes
+
+
+@cache
+def _unit_strokes(text: str) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """The letters' strokes with capitals one millimetre tall."""
     from HersheyFonts import HersheyFonts  # type: ignore[import-untyped]  # ships no types
 
     font = HersheyFonts()
     font.load_default_font("futural")
-    font.normalize_rendering(height_mm / _CAPITAL)
-    strokes = [np.array(stroke) for stroke in font.strokes_for_text(text)]
-    drawn = [_distinct(stroke) for stroke in strokes]
-    drawn = [stroke for stroke in drawn if len(stroke) > 1]
-    if not drawn:
-        raise ValueError(f"nothing to engrave in {text!r}")
-    return drawn
+    font.normalize_rendering(1 / _CAPITAL)
+    strokes = [_distinct(np.array(stroke)) for stroke in font.strokes_for_text(text)]
+    return tuple(tuple((float(x), float(y)) for x, y in s) for s in strokes if len(s) > 1)
 
 
 def _distinct(stroke: FloatArray) -> FloatArray:

@@ -1,0 +1,43 @@
+"""The laser's sheets as SVG at true size, hairlines in the colours of the profile."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from wrapit.config.plate import ProfileName
+from wrapit.exports.laser_profiles import ORDER, PROFILES
+from wrapit.geometry import Loop
+from wrapit.geometry.svgframe import SvgFrame, number
+from wrapit.jig.laser_model import Contour
+
+HAIRLINE_MM = 0.05
+
+
+def plate_svg(
+    contours: Sequence[Contour], width_mm: float, height_mm: float, profile: ProfileName = "lightburn"
+) -> str:
+    """SVG whose user unit is a millimetre; one group for each kind of work, in the order of working.
+
+    Curves are exact cubics, arcs are arcs; nothing is filled.
+    """
+    frame = SvgFrame.around(np.zeros(2), np.array([width_mm, height_mm]), 0.0)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {frame.size} viewBox="{frame.view_box}">',
+        "<title>Laser-cut plate jig</title>",
+    ]
+    looks = PROFILES[profile]
+    for layer in ORDER:
+        shapes = [
+            frame.outline(Loop(contour.edges)) if contour.closed else frame.edges(contour.edges)
+            for contour in contours
+            if contour.layer == layer
+        ]
+        if shapes:
+            style = f'fill="none" stroke="{looks[layer].css}" stroke-width="{number(HAIRLINE_MM)}"'
+            lines.append(f'<g id="{layer}" {style}>')
+            lines += [f'<path d="{shape}"/>' for shape in shapes]
+            lines.append("</g>")
+    return "\n".join([*lines, "</svg>", ""])

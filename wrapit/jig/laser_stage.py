@@ -1,0 +1,110 @@
+"""Builds the laser-cut jig: walls wide enough for sheet, the inlay's parts, their sheets, the checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from wrapit.config import JigConfig, PlateConfig
+from wrapit.errors import Finding, JigError
+from wrapit.geometry import Region
+from wrapit.geometry.offsets import offset_region
+from wrapit.jig.blanks import wall_polygons
+from wrapit.jig.course import Course
+from wrapit.jig.holes import start_holes
+from wrapit.jig.laser_checks import check_sheets
+from wrapit.jig.laser_model import LaserJig, LaserPart
+from wrapit.jig.laser_nesting import nest
+from wrapit.jig.laser_stack import copies_needed, stack_parts
+from wrapit.jig.model import Hole, JigSet
+from wrapit.wires.model import Wire
+
+# Sheet between a start hole and the pocket beside it, in the finished plate.
+HOLE_WEB_MM = 1.2
+
+
+def build_laser_jig(
+    wires: Sequence[Wire], jigset: JigSet, jig_config: JigConfig, config: PlateConfig
+) -> tuple[LaserJig, tuple[Finding, ...]]:
+    """The laser-cut jig, with as many stacks as the printed one has jigs (same wires in each).
+
+    Walls are planned anew, as wide as sheet needs. Findings name walls that can't be cut, webs and cuts
+    that are too near, and parts larger than the sheet. Raises JigError when there are no wires.
+    """
+    if not wires:
+        raise JigError("there are no wires to make a jig for")
+    parts: list[LaserPart] = []
+    findings: list[Finding] = []
+    for number, jig in enumerate(jigset.jigs, start=1):
+        mine = tuple(wire for wire in wires if wire.name in jig.wires)
+        prefix = f"{number}." if len(jigset.jigs) > 1 else ""
+        walls, holes, more = laser_walls(mine, jig_config, config)
+        stack, faults = stack_parts(jig.name, prefix, mine, walls, holes, jig_config, config, offset_region)
+        parts += stack
+        findings += [*more, *faults]
+    sheets, unfit = nest(parts, config)
+    checks, faults = check_sheets(parts, sheets, config.kerf)
+    copies = max(copies_needed(wire.layers, wire.diameter_mm, config) for wire in wires)
+    jig_model = LaserJig(
+        parts=tuple(parts),
+        sheets=sheets,
+        kerf_mm=config.kerf,
+        fit_mm=config.fit,
+        wall_height_mm=copies * config.wall_sheet - config.sheet,
+        checks=checks,
+    )
+    return jig_model, (*findings, *_stacked(copies, config), *unfit, *faults)
+
+
+def laser_walls(
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
+) -> tuple[tuple[Region, ...], tuple[Hole, ...], tuple[Finding, ...]]:
+    """Exact faces of the walls of one stack, and its start holes.
+
+    Walls keep away from start holes so that a web stays between hole and pocket.
+    """
+    import shapely
+
+    wide = jig_config.model_copy(
+        update={"min_wall_width": config.min_wall_width, "min_wall_area": config.min_wall_area}
+    )
+    course = Course.of(wires, wide)
+    holes = start_holes(course, wide)
+    rims = [shapely.Polygon(hole.outline.sampled(0.002)) for hole in holes]
+    kept_clear = shapely.union_all(shapely.buffer(rims, HOLE_WEB_MM + config.fit, quad_segs=16))
+    polygons, findings = wall_polygons(course, wide, kept_clear)
+    walls = tuple(course.outliner.region(polygon) for polygon, _ in polygons)
+    return walls, holes, (*findings, *_unheld(course.wires, polygons))
+
+
+def _unheld(wires: Sequence[Wire], polygons: Sequence[tuple[object, tuple[object, ...]]]) -> list[Finding]:
+    """A finding for each wire with turns that no wall of sheet holds."""
+    held = {id(turn) for _, turns in polygons for turn in turns}
+    findings = []
+    for wire in wires:
+        loose = [turn for turn in wire.turns if id(turn) not in held]
+        if loose:
+            places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)
+            findings.append(
+                Finding(
+                    "warning",
+                    "turn-without-wall",
+                    f"{wire.name} at {places} mm",
+                    f"{len(loose)} of {len(wire.turns)} turns leave no room for a wall cut from sheet",
+                    "bend there by hand, make the piece larger, or print the jig",
+                )
+            )
+    return findings
+
+
+def _stacked(copies: int, config: PlateConfig) -> list[Finding]:
+    if copies == 1:
+        return []
+    return [
+        Finding(
+            "note",
+            "stacked-walls",
+            "laser-cut jig",
+            f"each wall is {copies} pieces of {config.wall_sheet:g} mm glued upon one another",
+            "set plate.wall_sheet to a thicker sheet to need only one",
+        )
+    ]
