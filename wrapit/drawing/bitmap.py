@@ -13,11 +13,11 @@ from wrapit.drawing.cleanup import (
     Radii,
     contract_short,
     drop_crumbs,
-    drop_small_loops,
     keep_largest,
-    prune_spurs,
+    tidy,
 )
 from wrapit.drawing.corners import split_corners
+from wrapit.drawing.crossings import join_crossings
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.inspection import refuse_other_pictures
@@ -42,13 +42,17 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     net = network(skeleton.pixels, skeleton.pairs)
     radius = Radii(skeleton.pixels, skeleton.distance)
     net.rejoin_all()
-    prune_spurs(net, radius, width_px)
+    tidy(net, radius, width_px)
     refuse_other_pictures(ink, skeleton, net, str(path))
-    contract_short(net, radius, 1.0)
-    drop_small_loops(net, width_px)
+    contract_short(net, radius, 0.35)
+    tidy(net, radius, width_px)
     drop_crumbs(net, width_px)
     keep_largest(net, width_px)
     lines = centre_lines(net, ink, width_px)
+    join_crossings(net, lines, width_px)
+    contract_short(net, radius, 1.0)
+    if tidy(net, radius, width_px):
+        lines = centre_lines(net, ink, width_px)
     split_corners(net, lines, width_px, tracing.corner_angle)
     pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
     return _drawing(net, pieces, picture, size_mm)

@@ -21,7 +21,19 @@ class Radii:
         return float(self._distance[self._tree.query(point)[1]])
 
 
-def prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
+def tidy(net: Network, radius: Radii, width_px: float) -> bool:
+    """Drops small loops and spurs until none is left (a loop may sit at the tip of a spur)."""
+    changed = False
+    while True:
+        before = len(net.strands)
+        _drop_small_loops(net, width_px)
+        _prune_spurs(net, radius, width_px)
+        if len(net.strands) == before:
+            return changed
+        changed = True
+
+
+def _prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
     """Drops side branches shorter than 1.4 times the ink's half width at their junction, shortest first."""
     while True:
         spurs = []
@@ -69,11 +81,12 @@ def contract_short(net: Network, radius: Radii, share: float) -> None:
         net.merge([s.start, s.end], middle, [strand])
 
 
-def drop_small_loops(net: Network, width_px: float) -> None:
-    """Drops loops around nothing: shorter than 2.2 stroke widths and starting and ending at one node."""
+def _drop_small_loops(net: Network, width_px: float) -> None:
+    """Drops loops around nothing: shorter than 2.2 stroke widths, from a node to itself."""
     for strand, s in list(net.strands.items()):
         if s.start == s.end and net.length(strand) < 2.2 * width_px:
-            net.note("loop", net.nodes[s.start], net.length(strand), "smaller than the stroke is wide")
+            if len(s.points) > width_px / 2:
+                net.note("loop", net.nodes[s.start], net.length(strand), "smaller than the stroke is wide")
             net.drop_strand(strand)
     net.drop_lonely()
     net.rejoin_all()

@@ -195,8 +195,10 @@ def place(arms: list[Arm], around: FloatArray, limit: float = PAIR_RAD) -> tuple
     single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
     point = around
     feet = [0.0] * len(curves)
+    # Two curves fix the point, even where they cross at an acute angle.
+    prior = 0.01 if len(curves) < 2 else 1e-4
     for _ in range(4):
-        matrix, right = 0.01 * np.eye(2), 0.01 * point
+        matrix, right = prior * np.eye(2), prior * point
         for k, curve in enumerate(curves):
             feet[k] = curve.foot(point, feet[k])
             matrix, right = _pulled(matrix, right, *curve.at(feet[k]), 1.0)

@@ -1,0 +1,142 @@
+"""Crossings that thinning tore apart: two forks with a shared stretch between them, put together again.
+
+Where two strokes cross at an acute angle, their ink is one stroke for up to eleven widths. Each shared
+stretch gets two explanations: the strokes cross in it, or they truly run together. Both are drawn again,
+and the one whose width along the stretch agrees with the ink is kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wrapit.drawing.centring import Line
+from wrapit.drawing.junctions import Arm, Through, arm, through, turn
+from wrapit.drawing.network import Network
+from wrapit.geometry import FloatArray, unit
+
+# In stroke widths.
+_LONGEST = 13.0
+_LONGEST_CLEAN = 2.2
+_MISFIT = 0.35
+_SHORT = 2.5
+_TURN_RAD = np.radians(30)
+
+
+@dataclass(frozen=True, eq=False)
+class _Crossing:
+    """A way to explain a shared stretch by two strokes that cross in it."""
+
+    strand: int
+    at: FloatArray
+    cost: float
+
+
+def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> None:
+    """Makes one node of each two forks between which two strokes cross."""
+    found = []
+    for strand, s in net.strands.items():
+        if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
+            continue
+        line = lines[strand]
+        if line.length > _LONGEST * width_px or _clean_length(line) > _LONGEST_CLEAN * width_px:
+            continue
+        crossing = _explained(net, lines, strand, width_px)
+        if crossing is not None:
+            found.append(crossing)
+    taken: set[int] = set()
+    for crossing in sorted(found, key=lambda c: (c.cost, c.strand)):
+        s = net.strands[crossing.strand]
+        if s.start in taken or s.end in taken:
+            continue
+        taken |= {s.start, s.end}
+        net.merge([s.start, s.end], crossing.at, [crossing.strand])
+
+
+def _clean_length(line: Line) -> float:
+    steps = np.diff(line.along)
+    return float(steps[line.clean[1:] & line.clean[:-1]].sum())
+
+
+def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> _Crossing | None:
+    s, line = net.strands[strand], lines[strand]
+    heads = _others(net, lines, s.start, strand, width_px)
+    tails = _others(net, lines, s.end, strand, width_px)
+    if len(heads) != 2 or len(tails) != 2:
+        return None
+    best = None
+    for order in ((0, 1), (1, 0)):
+        pairs = [(heads[0], tails[order[0]]), (heads[1], tails[order[1]])]
+        if any(a.strand == b.strand and a.end == b.end for a, b in pairs):
+            continue
+        turns = [turn(a, b) for a, b in pairs]
+        curves = [through(a, b) for a, b in pairs]
+        cost = sum(value**2 for value in turns)
+        if best is None or cost < best[0]:
+            best = (cost, turns, curves)
+    if best is None:
+        return None
+    cost, turns, curves = best
+    at = _meeting(curves[0], curves[1], width_px)
+    if at is None or max(turns) > _TURN_RAD:
+        return None
+    if line.length > _SHORT * width_px:
+        crossed, together = _misfits(line, _apart(curves, line), width_px)
+        if crossed > _MISFIT or crossed > together:
+            return None
+    return _Crossing(strand, at, cost)
+
+
+def _meeting(a: Through, b: Through, width_px: float) -> FloatArray | None:
+    """Where two curves cross between their arms, or nothing."""
+    first, second = (
+        (np.linspace(-0.5, 0.5, 41) * (curve.gap + width_px))[:, None]
+        ** np.arange(len(curve.coefficients))
+        @ curve.coefficients
+        for curve in (a, b)
+    )
+    d, e = np.diff(first, axis=0)[:, None], np.diff(second, axis=0)[None]
+    between = second[None, :-1] - first[:-1, None]
+    det = d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0]
+    safe = np.where(np.abs(det) < 1e-12, np.inf, det)
+    s = (between[..., 0] * e[..., 1] - between[..., 1] * e[..., 0]) / safe
+    t = (between[..., 0] * d[..., 1] - between[..., 1] * d[..., 0]) / safe
+    hits = np.argwhere((s >= 0) & (s < 1) & (t >= 0) & (t < 1))
+    if len(hits) != 1:
+        return None
+    i, j = hits[0]
+    return first[i] + s[i, j] * d[i, 0]
+
+
+def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
+    return [
+        arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand
+    ]
+
+
+def _apart(curves: list[Through], line: Line) -> FloatArray:
+    """Signed distance (n,) between two curves, across each point of the line between the forks."""
+    tangent = unit(np.gradient(line.points, axis=0))
+    normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
+    offsets = []
+    for curve in curves:
+        reach = 0.75 * curve.gap + line.length / 2
+        s = np.linspace(-reach, reach, 81)
+        places = (s[:, None] ** np.arange(len(curve.coefficients))) @ curve.coefficients
+        difference = places[None] - line.points[:, None]
+        along = np.abs((difference * tangent[:, None]).sum(axis=2))
+        nearest = np.argmin(along + 0.2 * np.linalg.norm(difference, axis=2), axis=1)
+        offsets.append((difference[np.arange(len(nearest)), nearest] * normal).sum(axis=1))
+    return offsets[0] - offsets[1]
+
+
+def _misfits(line: Line, apart: FloatArray, width_px: float) -> tuple[float, float]:
+    """How far (stroke widths) the ink's width is from that of two crossing strokes, and from one's."""
+    known = np.isfinite(line.width)
+    if not known.any():
+        return 0.0, 0.0
+    measured = np.minimum(line.width[known], 2 * width_px) / width_px
+    crossed = np.minimum(1 + np.abs(apart[known]) / width_px, 2.0)
+    return float(np.abs(measured - crossed).mean()), float(np.abs(measured - 1).mean())
+
