@@ -1,0 +1,183 @@
+"""A picture of the jig at an angle, wires laid in, without a 3D library.
+
+Seen from above at an angle, whatever is higher hides what is lower: a jig of flat terraces is painted
+slice by slice from the bottom up, each slice moved up the picture by its height.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.errors import ExportError
+from wrapit.geometry import FloatArray, Region
+from wrapit.geometry.arclength import ArcLength
+from wrapit.jig.model import Jig
+from wrapit.wires.model import Wire
+
+PX_PER_MM = 12.0
+SUPERSAMPLING = 2
+TURN_RAD, TILT_RAD = math.radians(-24), math.radians(48)  # about the vertical; above the horizon
+SLICE_MM = 0.1
+MARGIN_MM = 4.0
+PAPER, PLATE, WALL = np.array([250, 249, 246.0]), np.array([214, 214, 211.0]), np.array([168, 173, 181.0])
+
+Mask = NDArray[np.bool_]
+
+
+def write_view(path: Path, jig: Jig, wires: Sequence[Wire]) -> None:
+    """Write a PNG of the jig seen at an angle with its wires; the same geometry gives the same bytes.
+
+    Raises ExportError when the file can't be written.
+    """
+    from PIL import Image
+
+    picture = _Picture(jig.plate)
+    top = jig.plan.plate.thickness_mm
+    picture.raise_region([jig.plate], 0.0, top, PLATE)
+    for z_mm in np.arange(top, _height(jig, wires) + SLICE_MM, SLICE_MM):
+        for height in sorted({wall.height_mm for wall in jig.plan.walls}):
+            walls = [w for w, plan in zip(jig.walls, jig.plan.walls, strict=True) if plan.height_mm == height]
+            if z_mm <= top + height:
+                picture.slice_region(walls, float(z_mm), WALL, top=bool(z_mm + SLICE_MM > top + height))
+        for wire in wires:
+            picture.slice_wire(wire, float(z_mm), top)
+    image = Image.fromarray(np.clip(picture.pixels, 0, 255).astype(np.uint8))
+    small = image.resize((image.width // SUPERSAMPLING, image.height // SUPERSAMPLING), Image.Resampling.BOX)
+    try:
+        small.save(path, format="PNG", compress_level=9)
+    except OSError as error:
+        raise ExportError(
+            f"the picture can't be written ({error.strerror})", str(path), "check the disk"
+        ) from error
+
+
+def _height(jig: Jig, wires: Sequence[Wire]) -> float:
+    walls = max((wall.height_mm for wall in jig.plan.walls), default=0.0)
+    laid = max(
+        (wire.diameter_mm + max((z for _, z in wire.lifts), default=0.0) for wire in wires), default=0.0
+    )
+    return jig.plan.plate.thickness_mm + max(walls, laid)
+
+
+class _Picture:
+    """Pixels (h, w, 3), painted from the bottom up."""
+
+    def __init__(self, plate: Region) -> None:
+        corners = self._turned(plate.outer.sampled(0.1))
+        low, high = corners.min(axis=0) - MARGIN_MM, corners.max(axis=0) + MARGIN_MM
+        self._scale = PX_PER_MM * SUPERSAMPLING
+        self._origin = np.array([low[0], high[1] + 12.0 * math.cos(TILT_RAD)])
+        extent = np.array([high[0] - low[0], self._origin[1] - low[1]])
+        width, height = (math.ceil(side * PX_PER_MM) * SUPERSAMPLING for side in extent)
+        self.pixels: FloatArray = np.tile(PAPER, (height, width, 1))
+        self._stencils: dict[int, _Stencil] = {}
+        self._courses: dict[str, _Course] = {}
+
+    @staticmethod
+    def _turned(points: FloatArray) -> FloatArray:
+        c, s = math.cos(TURN_RAD), math.sin(TURN_RAD)
+        turned = points @ np.array([[c, s], [-s, c]])
+        return turned * np.array([1.0, math.sin(TILT_RAD)])
+
+    def _px(self, points: FloatArray) -> list[tuple[float, float]]:
+        moved = (self._turned(points) - self._origin) * np.array([1.0, -1.0]) * self._scale
+        return [(float(x), float(y)) for x, y in moved]
+
+    def _stencil(self, regions: Sequence[Region]) -> _Stencil:
+        from PIL import Image, ImageDraw
+
+        key = hash(tuple(id(region) for region in regions))
+        if key not in self._stencils:
+            image = Image.new("1", (self.pixels.shape[1], self.pixels.shape[0]), 0)
+            canvas = ImageDraw.Draw(image)
+            for region in regions:
+                canvas.polygon(self._px(region.outer.sampled(0.01)), fill=1)
+                for hole in region.holes:
+                    canvas.polygon(self._px(hole.sampled(0.01)), fill=0)
+            self._stencils[key] = _Stencil.of(np.asarray(image))
+        return self._stencils[key]
+
+    def _course(self, wire: Wire) -> _Course:
+        if wire.name not in self._courses:
+            lengths = ArcLength(wire.centreline)
+            at_mm = lengths.stations(0.1)
+            lifts = np.interp(at_mm, *np.array(wire.lifts).T) if wire.lifts else np.zeros_like(at_mm)
+            points = wire.centreline.at(lengths.parameter(at_mm))
+            self._courses[wire.name] = _Course(np.array(self._px(points)), lifts + wire.diameter_mm / 2)
+        return self._courses[wire.name]
+
+    def raise_region(
+        self, regions: Sequence[Region], low_mm: float, high_mm: float, colour: FloatArray
+    ) -> None:
+        """Paint an upright prism."""
+        for z_mm in np.arange(low_mm, high_mm, SLICE_MM):
+            self.slice_region(regions, float(z_mm), colour, top=False)
+        self.slice_region(regions, high_mm, colour, top=True)
+
+    def slice_region(self, regions: Sequence[Region], z_mm: float, colour: FloatArray, *, top: bool) -> None:
+        """Paint one slice: sides darker than the top, and darkest to the right."""
+        stencil = self._stencil(regions)
+        row = stencil.row - round(z_mm * math.cos(TILT_RAD) * self._scale)
+        height, width = stencil.mask.shape
+        under = self.pixels[row : row + height, stencil.column : stencil.column + width]
+        under[stencil.mask] = colour if top else 0.80 * colour
+        if not top:
+            under[stencil.right] = 0.66 * colour
+
+    def slice_wire(self, wire: Wire, z_mm: float, plate_mm: float) -> None:
+        """Paint the wire's section at a height: narrow and light near its top."""
+        from PIL import Image, ImageDraw
+
+        course, radius = self._course(wire), wire.diameter_mm / 2
+        above = (z_mm - plate_mm - course.height_mm) / radius
+        inside = np.abs(above) < 1
+        if not inside.any():
+            return
+        points = course.points_px[inside] - np.array([0.0, z_mm * math.cos(TILT_RAD) * self._scale])
+        reach = 2 + math.ceil(radius * self._scale)
+        left, upper = (math.floor(v) - reach for v in points.min(axis=0))
+        right, lower = (math.ceil(v) + reach for v in points.max(axis=0))
+        image = Image.new("L", (right - left, lower - upper), 0)
+        canvas = ImageDraw.Draw(image)
+        for (x, y), level in zip(points - np.array([left, upper]), above[inside], strict=True):
+            half = radius * math.sqrt(1 - level**2) * self._scale
+            flat = half * math.sin(TILT_RAD)
+            canvas.ellipse((x - half, y - flat, x + half, y + flat), fill=round(1 + 127 * (1 + level)))
+        mask = np.asarray(image)
+        painted = mask > 0
+        base = np.array([int(wire.colour[i : i + 2], 16) for i in (1, 3, 5)], dtype=float)
+        level_px = (mask[painted][:, None] - 1) / 254
+        shade = base * (0.45 + 0.55 * level_px) + 90 * np.maximum(level_px - 0.75, 0) * 4
+        self.pixels[upper:lower, left:right][painted] = shade
+
+
+@dataclass(frozen=True, eq=False)
+class _Stencil:
+    """The pixels of a flat shape, cropped; `right` are those near its right rim."""
+
+    row: int
+    column: int
+    mask: Mask
+    right: Mask
+
+    @classmethod
+    def of(cls, whole: Mask) -> _Stencil:
+        rows, columns = np.flatnonzero(whole.any(axis=1)), np.flatnonzero(whole.any(axis=0))
+        mask = whole[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+        right = mask.copy()
+        right[:, :-3] &= ~mask[:, 3:]
+        return cls(int(rows[0]), int(columns[0]), mask, right)
+
+
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """Stations along a wire: pixels of the plane, and the height of its middle above the plate."""
+
+    points_px: FloatArray
+    height_mm: FloatArray
