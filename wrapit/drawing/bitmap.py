@@ -21,7 +21,7 @@ from wrapit.drawing.crossings import join_crossings
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.inspection import refuse_other_pictures
-from wrapit.drawing.junctions import PAIR_RAD, Ending, arms_at, place
+from wrapit.drawing.junctions import Arm, Ending, arms_at, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
 from wrapit.drawing.picture import Picture, read_picture
@@ -128,15 +128,25 @@ def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tol
         elif len(arms) == 2 and arms[0].strand == arms[1].strand:
             _seam(net, lines, node, endings, width_px)
         else:
-            limit = 0.0 if len(arms) == 2 else PAIR_RAD
-            net.nodes[node], found = place(arms, net.nodes[node], limit)
-            for arm_, ending in zip(arms, found, strict=True):
-                endings[arm_.strand, arm_.end] = ending
+            net.nodes[node], found = place(arms, net.nodes[node], _pairs(net, node, arms))
+            for arm, ending in zip(arms, found, strict=True):
+                endings[arm.strand, arm.end] = ending
     strokes = [
         _stroke(net, strand, lines[strand], endings[strand, 0], endings[strand, 1]) for strand in net.strands
     ]
     chains = fit_all(strokes, tolerance * width_px, reach=width_px)
     return [Piece(s.start, s.end, chain) for s, chain in zip(net.strands.values(), chains, strict=True)]
+
+
+def _pairs(net: Network, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
+    """Which arms of a node continue each other; at a corner, where only two meet, none do."""
+    if len(arms) == 2:
+        return []
+    index = {(arm.strand, arm.end): k for k, arm in enumerate(arms)}
+    known = net.through.get(node, ())
+    if len(arms) == 4 and known and all(end in index for ends in known for end in ends):
+        return [(index[a], index[b]) for a, b in known]
+    return pair(arms)
 
 
 def _seam(
@@ -158,7 +168,7 @@ def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) 
     s = net.strands[strand]
     stop = len(line.points) - last.cut
     inner = slice(first.cut, stop)
-    keep = line.clean[inner] if line.clean[inner].mean() > 0.6 else slice(None)
+    keep = line.clean[inner] if stop > first.cut and line.clean[inner].mean() > 0.6 else slice(None)
     middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
     points = np.vstack(
         [net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]]

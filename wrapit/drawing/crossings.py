@@ -13,15 +13,16 @@ import numpy as np
 
 from wrapit.drawing.centring import Line
 from wrapit.drawing.junctions import Arm, Through, arm, through, turn
-from wrapit.drawing.network import Network
+from wrapit.drawing.network import Network, StrandEnd
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths.
-_LONGEST = 13.0
-_LONGEST_CLEAN = 2.2
-_MISFIT = 0.35
+_LONGEST = 30.0
 _SHORT = 2.5
+_MISFIT = 0.2
+_BETTER = 0.6
 _TURN_RAD = np.radians(30)
+_TURN_SEEN_RAD = np.radians(65)
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +32,7 @@ class _Crossing:
     strand: int
     at: FloatArray
     cost: float
+    pairs: tuple[tuple[StrandEnd, StrandEnd], ...]
 
 
 def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> None:
@@ -40,7 +42,7 @@ def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> Non
         if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
             continue
         line = lines[strand]
-        if line.length > _LONGEST * width_px or _clean_length(line) > _LONGEST_CLEAN * width_px:
+        if line.length > _LONGEST * width_px:
             continue
         crossing = _explained(net, lines, strand, width_px)
         if crossing is not None:
@@ -51,12 +53,8 @@ def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> Non
         if s.start in taken or s.end in taken:
             continue
         taken |= {s.start, s.end}
-        net.merge([s.start, s.end], crossing.at, [crossing.strand])
-
-
-def _clean_length(line: Line) -> float:
-    steps = np.diff(line.along)
-    return float(steps[line.clean[1:] & line.clean[:-1]].sum())
+        node = net.merge([s.start, s.end], crossing.at, [crossing.strand])
+        net.through[node] = crossing.pairs
 
 
 def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> _Crossing | None:
@@ -72,20 +70,22 @@ def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: floa
             continue
         turns = [turn(a, b) for a, b in pairs]
         curves = [through(a, b) for a, b in pairs]
+        crossed, together = _misfits(line, _apart(curves, line), width_px)
         cost = sum(value**2 for value in turns)
+        if line.length > _SHORT * width_px:
+            cost += (2 * crossed) ** 2
         if best is None or cost < best[0]:
-            best = (cost, turns, curves)
+            best = (cost, max(turns), curves, pairs, crossed, together)
     if best is None:
         return None
-    cost, turns, curves = best
+    cost, sharpest, curves, pairs, crossed, together = best
     at = _meeting(curves[0], curves[1], width_px)
-    if at is None or max(turns) > _TURN_RAD:
+    seen = line.length > 0.8 * width_px and crossed < _MISFIT and crossed < _BETTER * together
+    if at is None or sharpest > (_TURN_SEEN_RAD if seen else _TURN_RAD):
         return None
-    if line.length > _SHORT * width_px:
-        crossed, together = _misfits(line, _apart(curves, line), width_px)
-        if crossed > _MISFIT or crossed > together:
-            return None
-    return _Crossing(strand, at, cost)
+    if line.length > _SHORT * width_px and not seen:
+        return None
+    return _Crossing(strand, at, cost, tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in pairs))
 
 
 def _meeting(a: Through, b: Through, width_px: float) -> FloatArray | None:

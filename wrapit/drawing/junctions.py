@@ -184,13 +184,12 @@ def through(a: Arm, b: Arm) -> Through:
     return Through(polynomial(along, np.vstack([points_a, points_b]), degree), gap)
 
 
-def place(arms: list[Arm], around: FloatArray, limit: float = PAIR_RAD) -> tuple[FloatArray, list[Ending]]:
-    """The point where the arms meet, and how each leaves it.
+def place(arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]) -> tuple[FloatArray, list[Ending]]:
+    """The point where the arms meet, and how each leaves it; `pairs` of arms continue each other.
 
     The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
     to the extrapolated single arms (0.3), and weakly to `around`.
     """
-    pairs = pair(arms, limit)
     curves = [through(arms[i], arms[j]) for i, j in pairs]
     single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
     point = around

@@ -6,11 +6,16 @@ It lives only inside `trace`; what leaves is a `Drawing`.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 
 from wrapit.errors import Level
 from wrapit.geometry import FloatArray
+
+
+# A strand's number, and 0 for its start or 1 for its end.
+StrandEnd: TypeAlias = tuple[int, int]
 
 
 @dataclass(eq=False)
@@ -45,14 +50,18 @@ class Notice:
 
 @dataclass(eq=False)
 class Network:
-    """Nodes (places) and strands by number; numbers are never used twice."""
+    """Nodes (places) and strands by number; numbers are never used twice.
+
+    `through` holds, for nodes where it is known, which strand ends continue each other.
+    """
 
     nodes: dict[int, FloatArray] = field(default_factory=dict)
     strands: dict[int, Strand] = field(default_factory=dict)
     changes: list[Change] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
+    through: dict[int, tuple[tuple[StrandEnd, StrandEnd], ...]] = field(default_factory=dict)
     _next: int = 0
-    _ends: dict[int, list[tuple[int, int]]] = field(default_factory=dict)
+    _ends: dict[int, list[StrandEnd]] = field(default_factory=dict)
 
     def add_node(self, point: FloatArray) -> int:
         """Number of a new node."""
@@ -69,7 +78,7 @@ class Network:
         self._ends[end].append((strand, 1))
         return strand
 
-    def ends_at(self, node: int) -> list[tuple[int, int]]:
+    def ends_at(self, node: int) -> list[StrandEnd]:
         """The strand ends at a node: (strand, 0) where it starts, (strand, 1) where it ends."""
         return self._ends[node]
 
