@@ -19,7 +19,7 @@ from wrapit.geometry import FloatArray, unit
 # In stroke widths.
 _LONGEST = 30.0
 _SHORT = 2.5
-_MISFIT = 0.2
+_MISFIT = 0.28
 _BETTER = 0.6
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
