@@ -10,9 +10,9 @@ from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
 
 STEP_MM = 0.1
-SLOPE = 0.5  # steepest rise of a wire over another, mm per mm
+RAMP_DIAMETERS = 2.5  # a wire rises over another along this many diameters, gently enough to bend by hand
 SELF_ROUNDS = 6
-PROFILE_TOLERANCE_MM = 0.002
+PROFILE_STEP = 6  # stations between the points of a profile
 SELF_DIAMETERS = 3.0  # a wire meets itself only farther apart than this along its length
 
 
@@ -29,7 +29,7 @@ def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[tuple[tupl
         at_mm = lengths.stations(STEP_MM)
         points = spline.at(lengths.parameter(at_mm))
         z_mm = _resting(points, at_mm, below, heights, diameter_mm)
-        profiles.append(_simplified(at_mm, z_mm) if z_mm.max() > 1e-9 else ())
+        profiles.append(_points(at_mm, z_mm) if z_mm.max() > 1e-9 else ())
         below, heights = np.concatenate([below, points]), np.concatenate([heights, z_mm])
     return profiles
 
@@ -49,11 +49,11 @@ def _resting(
         for index, near in enumerate(cKDTree(points).query_ball_point(points, d))
         if (earlier := [i for i in near if at_mm[index] - at_mm[i] > SELF_DIAMETERS * d])
     ]
-    profile = _ramped(at_mm, needed)
+    profile = _ramped(needed, d)
     for _ in range(SELF_ROUNDS):
         for index, earlier in meetings:
             needed[index] = max(needed[index], _on_top(points[index], points[earlier], profile[earlier], d))
-        raised = _ramped(at_mm, needed)
+        raised = _ramped(needed, d)
         if np.array_equal(raised, profile):
             break
         profile = raised
@@ -65,22 +65,21 @@ def _on_top(point: FloatArray, others: FloatArray, heights: FloatArray, d: float
     return float((heights + np.sqrt(np.maximum(d**2 - apart2, 0.0))).max())
 
 
-def _ramped(at_mm: FloatArray, needed: FloatArray) -> FloatArray:
-    """The lowest profile above `needed` that rises and falls no steeper than SLOPE."""
-    falling = np.maximum.accumulate(needed + SLOPE * at_mm) - SLOPE * at_mm
-    rising = np.maximum.accumulate((needed - SLOPE * at_mm)[::-1])[::-1] + SLOPE * at_mm
-    return np.maximum(np.maximum(rising, falling), 0.0)
+def _ramped(needed: FloatArray, d: float) -> FloatArray:
+    """A smooth profile nowhere below `needed`: the highest need near, averaged twice."""
+    from scipy.ndimage import maximum_filter1d, uniform_filter1d
+
+    half = round(RAMP_DIAMETERS * d / STEP_MM / 2)
+    profile = maximum_filter1d(needed, 4 * half + 1, mode="nearest")
+    for _ in range(2):
+        profile = uniform_filter1d(profile, 2 * half + 1, mode="nearest")
+    return np.where(profile > 1e-9, np.maximum(profile, needed), 0.0)
 
 
-def _simplified(at_mm: FloatArray, z_mm: FloatArray) -> tuple[tuple[float, float], ...]:
-    """The bends of the profile (Douglas–Peucker, 2 µm)."""
-    keep, todo = {0, len(at_mm) - 1}, [(0, len(at_mm) - 1)]
-    while todo:
-        a, b = todo.pop()
-        chord = np.interp(at_mm[a : b + 1], at_mm[[a, b]], z_mm[[a, b]])
-        off = np.abs(z_mm[a : b + 1] - chord)
-        worst = a + int(off.argmax())
-        if off.max() > PROFILE_TOLERANCE_MM:
-            keep.add(worst)
-            todo += [(a, worst), (worst, b)]
-    return tuple((round(float(at_mm[i]), 6), round(float(z_mm[i]), 6)) for i in sorted(keep))
+def _points(at_mm: FloatArray, z_mm: FloatArray) -> tuple[tuple[float, float], ...]:
+    """The profile at its ends and where it is raised, close enough for a smooth curve through the points."""
+    coarse = np.unique(np.r_[np.arange(0, len(at_mm), PROFILE_STEP), len(at_mm) - 1])
+    high = z_mm[coarse] > 0
+    near = high | np.r_[high[1:], False] | np.r_[False, high[:-1]]
+    near[[0, -1]] = True
+    return tuple((round(float(at_mm[i]), 6), round(float(z_mm[i]), 6)) for i in coarse[near])

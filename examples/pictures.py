@@ -1,0 +1,43 @@
+"""Makes the README's pictures from the configs: wires, jig from above, jig at an angle.
+
+Run it with `python examples/pictures.py [folder] [names…]`.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from wrapit.config import load_config
+from wrapit.decomposition.stage import decompose
+from wrapit.drawing.stage import trace
+from wrapit.exports.preview_png import write_preview
+from wrapit.exports.view_png import write_view
+from wrapit.jig.stage import build_jig
+from wrapit.wires.stage import draw_wires
+
+CONFIGS = Path(__file__).parent.parent / "configs"
+PICTURES = Path(__file__).parent / "pictures"
+
+
+def take(name: str, folder: Path) -> None:
+    """Three pictures of one piece."""
+    config = load_config(CONFIGS / f"{name}.yaml")
+    drawing, _ = trace(CONFIGS / config.drawing, config.tracing, config.size)
+    solution, _ = decompose(drawing, config.decomposition)
+    wires, _ = draw_wires(solution, config)
+    jigs, _ = build_jig(wires, config.jig)
+    write_preview(folder / f"{name}-wires.png", wires)
+    for jig in jigs.jigs:
+        laid = tuple(wire for wire in wires if wire.name in jig.wires)
+        suffix = f"-{jig.name}" if len(jigs.jigs) > 1 else ""
+        write_preview(folder / f"{name}-jig{suffix}.png", laid, jig.walls, jig.plate)
+        write_view(folder / f"{name}-view{suffix}.png", jig, laid)
+
+
+if __name__ == "__main__":
+    target = Path(sys.argv[1]) if len(sys.argv) > 1 else PICTURES
+    target.mkdir(parents=True, exist_ok=True)
+    for piece in sys.argv[2:] or ["butterfly"]:
+        take(piece, target)
+        print(f"{piece}: pictures in {target}")
