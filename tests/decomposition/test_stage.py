@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 
 import pytest
 
@@ -27,6 +28,16 @@ def test_a_theta_is_one_wire() -> None:
     assert findings == ()
     again = energy_of(graph_of(theta()), solution.decomposition.mate, solution.weights)
     assert again == solution.energy
+
+
+@pytest.mark.parametrize("make", [theta, cross])
+def test_both_solvers_find_the_same_on_small_drawings(make: Callable[[], Drawing]) -> None:
+    exact, _ = decompose(make(), DecompositionConfig())
+    annealed, _ = decompose(make(), ANNEALING)
+    assert exact.optimal
+    assert exact.solver == "exact"
+    assert exact.lower_bound == pytest.approx(exact.energy.total)
+    assert annealed.energy.total == pytest.approx(exact.energy.total)
 
 
 def test_weak_wires_and_pieces_are_said() -> None:

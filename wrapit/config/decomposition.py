@@ -47,14 +47,23 @@ class AnnealingConfig(Block):
         return operators
 
 
+class ExactConfig(Block):
+    """Read by the solver `exact`."""
+
+    budget: int = Field(default=200_000, ge=0)
+    """Work that integer programming may take for each piece of the drawing, counted as unknowns ×
+    nodes of its search, not in seconds, so that every machine finds the same. Most drawings need none."""
+
+
 class DecompositionConfig(Block):
     """How the drawing is divided into wires."""
 
-    solver: Literal["annealing"] = "annealing"
-    """`annealing`: the paper's search."""
+    solver: Literal["exact", "annealing"] = "exact"
+    """`exact`: the proven best; `annealing`: the paper's search."""
 
     seed: int = Field(default=1, ge=0)
     """Start of the random numbers; the same seed gives the same wires."""
 
     weights: WeightsConfig = WeightsConfig()
+    exact: ExactConfig = ExactConfig()
     annealing: AnnealingConfig = AnnealingConfig()

@@ -45,13 +45,17 @@ def weak_trails(graph: Graph, trails: Sequence[Trail]) -> list[int]:
     A trail that touches none is a whole piece of the drawing in one wire, which is as robust as can
     be (the paper's exemption for designs of one wire, taken piece by piece).
     """
+    return [index for index, contacts in enumerate(contacts_of(graph, trails)) if len(contacts) == 1]
+
+
+def contacts_of(graph: Graph, trails: Sequence[Trail]) -> list[set[int]]:
+    """For each trail the junctions at which it touches others."""
     touched = [junctions_of(graph, trail) for trail in trails]
     visitors: dict[int, int] = {}
     for junctions in touched:
         for junction in junctions:
             visitors[junction] = visitors.get(junction, 0) + 1
-    contacts = [sum(visitors[junction] > 1 for junction in junctions) for junctions in touched]
-    return [index for index, count in enumerate(contacts) if count == 1]
+    return [{junction for junction in junctions if visitors[junction] > 1} for junctions in touched]
 
 
 def junctions_of(graph: Graph, trail: Trail) -> set[int]:

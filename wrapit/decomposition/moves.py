@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from wrapit.decomposition.branches import smallest_branches
 from wrapit.decomposition.energy import energy_of
@@ -10,15 +10,28 @@ from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Problem
 
 
+def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
+    """The matching after local moves for as long as one lowers the energy."""
+    wires = Wires(problem, mate)
+    improved = True
+    while improved:
+        improved = False
+        for a, partners in enumerate(wires.partners):
+            for b in partners:
+                if a < b and wires.toggle(a, b, -1e-9):
+                    improved = True
+    return wires.mate
+
+
 class Wires:
-    """Wires that grow and shrink, starting with one per stroke and no bridge in use.
+    """Wires that grow and shrink, starting with one per stroke and no bridge unless `mate` says otherwise.
 
     `mate` is always a valid matching without rings; `energy` follows it.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, mate: Sequence[int] | None = None) -> None:
         graph, weights = problem.graph, problem.weights
-        self.mate = [NO_MATE] * (2 * graph.segments)
+        self.mate = list(mate) if mate is not None else [NO_MATE] * (2 * graph.segments)
         start = energy_of(graph, self.mate, weights)
         self.energy, self._weak = start.total, start.robustness
         self.bridges = sorted(graph.bridges)

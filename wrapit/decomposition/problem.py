@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from wrapit.decomposition.energy import energy_of
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import Weights
+from wrapit.decomposition.model import Energy, Weights
+from wrapit.decomposition.rules import NO_RULES, Rules, broken
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """One graph to divide into trails, with the weights of the energy."""
+    """One graph to divide into trails, with the weights of the energy and the user's rules."""
 
     graph: Graph
     weights: Weights
+    rules: Rules = NO_RULES
+
+    def energy(self, mate: Sequence[int]) -> Energy:
+        """The energy of a matching."""
+        return energy_of(self.graph, mate, self.weights)
+
+    def is_allowed(self, mate: Sequence[int]) -> bool:
+        """Whether a matching breaks no rule."""
+        return broken(self.graph, self.rules, mate) == 0
 
 
 @dataclass(frozen=True)

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.decomposition.annealing import anneal
-from wrapit.decomposition.energy import energy_of, weak_trails
+from wrapit.decomposition.energy import weak_trails
+from wrapit.decomposition.exact import certified, solve_exactly
 from wrapit.decomposition.graph import Graph, fewest_possible_wires, graph_of, pieces
-from wrapit.decomposition.model import Decomposition, Solution, Trail, Weights
+from wrapit.decomposition.model import NO_MATE, Decomposition, Solution, Weights
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DecompositionError, Finding
 
-Solver = Callable[[Problem, DecompositionConfig, np.random.Generator], Answer]
+_CLOSE = 1e-9
 
-SOLVERS: dict[str, Solver] = {
-    "annealing": lambda problem, config, rng: anneal(problem, config.annealing, rng),
-}
+Solver = Callable[[Problem, DecompositionConfig, np.random.Generator], Answer]
 
 
 def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
@@ -33,21 +33,30 @@ def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, 
     if not drawing.segments:
         raise DecompositionError("the drawing has no lines to make wires of", remedy="draw at least one line")
     graph = graph_of(drawing)
-    weights = Weights(**config.weights.model_dump())
-    answer = _solve(Problem(graph, weights), config)
-    trails = trails_of(graph, answer.mate)
-    energy = energy_of(graph, answer.mate, weights)
-    solution = Solution(
+    problem = Problem(graph, Weights(**config.weights.model_dump()))
+    answer = solve(problem, config)
+    solution = solution_of(drawing, problem, answer, config)
+    return solution, tuple(_findings(graph, solution))
+
+
+def solution_of(drawing: Drawing, problem: Problem, answer: Answer, config: DecompositionConfig) -> Solution:
+    """An answer with its trails and with its energy, evaluated anew."""
+    trails = trails_of(problem.graph, answer.mate)
+    energy = problem.energy(answer.mate)
+    bound = answer.lower_bound
+    used = {traversal.segment for trail in trails for traversal in trail.traversals}
+    return Solution(
         decomposition=Decomposition(drawing, answer.mate),
         trails=trails,
         energy=energy,
-        weights=weights,
+        weights=problem.weights,
         solver=config.solver,
         seed=config.seed,
         iterations=answer.iterations,
-        bridges_used=tuple(sorted({t.segment for trail in trails for t in trail.traversals} & graph.bridges)),
+        lower_bound=bound,
+        optimal=bound is not None and energy.total - bound < _CLOSE * (1 + energy.total),
+        bridges_used=tuple(sorted(used & problem.graph.bridges)),
     )
-    return solution, tuple(_findings(graph, trails))
 
 
 def wire_name(index: int) -> str:
@@ -59,21 +68,38 @@ def wire_name(index: int) -> str:
     return f"wire-{index + 1:02d}"
 
 
-def _solve(problem: Problem, config: DecompositionConfig) -> Answer:
+def solve(problem: Problem, config: DecompositionConfig) -> Answer:
     """Each connected piece apart, in the order of their first segments."""
     rng = np.random.default_rng(config.seed)
-    mate = [-1] * (2 * problem.graph.segments)
-    iterations = 0
+    mate = [NO_MATE] * (2 * problem.graph.segments)
+    iterations, bounds = 0, []
     for piece in pieces(problem.graph):
-        answer = SOLVERS[config.solver](Problem(problem.graph.subgraph(piece), problem.weights), config, rng)
+        part = Problem(problem.graph.subgraph(piece), problem.weights)
+        answer = SOLVERS[config.solver](part, config, rng)
         iterations += answer.iterations
+        bounds.append(answer.lower_bound)
         half_edges = [h for e in piece for h in (2 * e, 2 * e + 1)]
         for h, other in zip(half_edges, answer.mate, strict=True):
-            mate[h] = half_edges[other] if other >= 0 else other
-    return Answer(tuple(mate), iterations)
+            mate[h] = half_edges[other] if other != NO_MATE else NO_MATE
+    known = [bound for bound in bounds if bound is not None]
+    return Answer(tuple(mate), iterations, sum(known) if len(known) == len(bounds) else None)
 
 
-def _findings(graph: Graph, trails: tuple[Trail, ...]) -> list[Finding]:
+def _annealed(problem: Problem, config: DecompositionConfig, rng: np.random.Generator) -> Answer:
+    """Annealing proves nothing; what local reasoning proves, in no time, says how good it is."""
+    answer = anneal(problem, config.annealing, rng)
+    return replace(answer, lower_bound=certified(problem).lower_bound)
+
+
+def _exact(problem: Problem, config: DecompositionConfig, _: np.random.Generator) -> Answer:
+    return solve_exactly(problem, config.exact.budget)
+
+
+SOLVERS: dict[str, Solver] = {"exact": _exact, "annealing": _annealed}
+
+
+def _findings(graph: Graph, solution: Solution) -> list[Finding]:
+    trails = solution.trails
     findings = [
         Finding(
             "warning",
@@ -93,6 +119,17 @@ def _findings(graph: Graph, trails: tuple[Trail, ...]) -> list[Finding]:
                 "drawing",
                 f"the drawing is in {len(parts)} pieces that no line joins",
                 "join them with a line, or make them as pieces of their own",
+            )
+        )
+    if solution.solver == "exact" and not solution.optimal:
+        gap = solution.energy.total - (solution.lower_bound or 0.0)
+        findings.append(
+            Finding(
+                "warning",
+                "not-proven-best",
+                "decomposition",
+                f"better wires may exist: {solution.energy.total:.4f} is at most {gap:.4f} above the best energy",
+                "raise decomposition.exact.budget",
             )
         )
     fewest = fewest_possible_wires(graph)

@@ -1,0 +1,103 @@
+"""Linear programmes with integer variables, solved by HiGHS through scipy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from wrapit.decomposition.local import LocalCosts, Matching
+
+# HiGHS stops when the gap is below 1e-6, which scipy can't change: scaling the costs makes it 1e-9.
+_SCALE = 1e3
+
+Name = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """Values by name; `bound` is proven. `values` is None where none was found in the nodes allowed."""
+
+    values: Mapping[Name, float] | None
+    bound: float
+    nodes: int
+    feasible: bool
+
+
+@dataclass
+class Programme:
+    """Minimise Σ cost · x over x in [0, 1] with rows low ≤ Σ coefficient · x ≤ high."""
+
+    columns: dict[Name, int] = field(default_factory=dict)
+    costs: list[float] = field(default_factory=list)
+    whole: list[bool] = field(default_factory=list)
+    rows: list[tuple[dict[Name, float], float, float]] = field(default_factory=list)
+
+    def add_column(self, name: Name, cost: float, *, whole: bool = True) -> None:
+        """A variable, unless it is there already."""
+        if name not in self.columns:
+            self.columns[name] = len(self.columns)
+            self.costs.append(cost)
+            self.whole.append(whole)
+
+    def add_row(self, coefficients: dict[Name, float], low: float = -np.inf, high: float = np.inf) -> None:
+        """A row; names without a column count as zero."""
+        self.rows.append((coefficients, low, high))
+
+    def solve(self, node_limit: int) -> Optimum:
+        """The optimum, or what is known of it after so many nodes of branch and bound."""
+        if not self.columns:
+            return Optimum({}, 0.0, 0, all(low <= 0 <= high for _, low, high in self.rows))
+        from scipy.optimize import Bounds, LinearConstraint, milp
+        from scipy.sparse import csr_array
+
+        entries = [
+            (row, self.columns[name], coefficient)
+            for row, (coefficients, _, _) in enumerate(self.rows)
+            for name, coefficient in coefficients.items()
+            if name in self.columns
+        ]
+        rows, columns, coefficients = zip(*entries, strict=True) if entries else ((), (), ())
+        matrix = csr_array((coefficients, (rows, columns)), shape=(len(self.rows), len(self.columns)))
+        outcome = milp(
+            np.array(self.costs) * _SCALE,
+            integrality=np.array(self.whole, dtype=int),
+            bounds=Bounds(0, 1),
+            constraints=LinearConstraint(
+                matrix, [low for _, low, _ in self.rows], [high for _, _, high in self.rows]
+            ),
+            options={"disp": False, "mip_rel_gap": 0.0, "node_limit": node_limit},
+        )
+        infeasible = outcome.status == 2
+        values = None
+        if outcome.x is not None:
+            values = {name: float(outcome.x[column]) for name, column in self.columns.items()}
+        bound = outcome.get("mip_dual_bound")
+        if bound is None or not np.isfinite(bound):
+            bound = -np.inf
+        return Optimum(values, float(bound) / _SCALE, int(outcome.get("mip_node_count") or 0), not infeasible)
+
+
+def best_matching(costs: LocalCosts, ends: tuple[int, ...]) -> tuple[float, Matching]:
+    """The least cost and a matching at a junction where too many segments meet for listing."""
+    programme = Programme()
+    base = sum(costs.free[h] for h in ends)
+    for a in ends:
+        for b, cost in costs.pair[a].items():
+            if a < b:
+                programme.add_column(("pair", a, b), cost - costs.free[a] - costs.free[b])
+    for h in ends:
+        programme.add_row({("pair", min(h, b), max(h, b)): 1.0 for b in costs.pair[h]}, high=1.0)
+    for h, (other, both) in costs.loose.items():
+        if h in ends:
+            programme.add_column(("loose", h), both)
+            touching = {("pair", min(x, b), max(x, b)): 1.0 for x in (h, other) for b in costs.pair[x]}
+            programme.add_row({**touching, ("loose", h): 1.0}, low=1.0)
+    values = programme.solve(10**6).values
+    assert values is not None
+    pairs = tuple(sorted((name[1], name[2]) for name, x in values.items() if name[0] == "pair" and x > 0.5))
+    return base + sum(
+        programme.costs[programme.columns[name]] for name, x in values.items() if x > 0.5
+    ), pairs

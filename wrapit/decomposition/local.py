@@ -1,0 +1,164 @@
+"""The best matching at one junction, taken by itself.
+
+Junctions decide almost everything: a transition saves one wire and costs its bend, whatever happens
+elsewhere. Summed over the junctions, the best matchings are a lower bound on the energy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.problem import Problem
+
+Pair = tuple[int, int]
+Matching = tuple[Pair, ...]
+
+ENUMERATED_DEGREE = 8
+"""Up to this degree all matchings at a junction are listed (764 of them)."""
+_QUICK_DEGREE = 5
+_SOLVED_DEGREE = 15
+
+
+class LocalCosts:
+    """What each matching at a junction costs; weak wires that are known to hang there included.
+
+    `pair[a][b]` is the cost of the transition a–b, `free[h]` that of a wire end at h, and
+    `loose[h]`, for h the lower of two half-edges, that of two wire ends at both.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        graph, weights = problem.graph, problem.weights
+        self.incident = graph.incident
+        forbidden = problem.rules.forbidden
+        self.pair = [
+            {
+                b: weights.smoothness * bend - 1.0
+                for b, bend in bends.items()
+                if (min(a, b), max(a, b)) not in forbidden
+            }
+            for a, bends in enumerate(graph.bends_rad)
+        ]
+        self.free = [0.0] * (2 * graph.segments)
+        self.loose: dict[int, tuple[int, float]] = {}
+        self._junction_of = graph.junction_of
+        self._best: dict[int, tuple[float, Matching]] = {}
+
+    def best(self, junction: int) -> tuple[float, Matching]:
+        """Least cost at a junction and a matching that has it."""
+        if junction not in self._best:
+            ends = self.incident[junction]
+            if len(ends) <= _QUICK_DEGREE:
+                self._best[junction] = min(self.matchings(junction))
+            elif len(ends) <= _SOLVED_DEGREE:
+                self._best[junction] = self._by_subsets(ends)
+            else:
+                from wrapit.decomposition.integer import best_matching
+
+                self._best[junction] = best_matching(self, ends)
+        return self._best[junction]
+
+    def cost(self, junction: int, mate: Sequence[int]) -> float:
+        """Cost of what `mate` does at a junction."""
+        cost = 0.0
+        for h in self.incident[junction]:
+            other = mate[h]
+            if other == NO_MATE:
+                cost += self.free[h]
+                tied, both = self.loose.get(h, (h, 0.0))
+                if tied != h and mate[tied] == NO_MATE:
+                    cost += both
+            elif h < other:
+                cost += self.pair[h][other]
+        return cost
+
+    def is_best(self, junction: int, mate: Sequence[int]) -> bool:
+        """Whether `mate` does the locally best thing at a junction."""
+        pairs = tuple((h, mate[h]) for h in self.incident[junction] if h < mate[h])
+        return pairs == self.best(junction)[1]
+
+    def matchings(self, junction: int) -> Iterator[tuple[float, Matching]]:
+        """Every matching at a junction with its cost."""
+        return self._extended(self.incident[junction], 0.0, ())
+
+    def penalise_end(self, h: int, cost: float) -> None:
+        """A wire end at h costs `cost` more, because a wire would hang there."""
+        self.free[h] += cost
+        self._forget(h)
+
+    def penalise_ends(self, h: int, other: int, cost: float) -> None:
+        """Wire ends at both half-edges cost `cost` more."""
+        low, high = min(h, other), max(h, other)
+        self.loose[low] = (high, self.loose.get(low, (high, 0.0))[1] + cost)
+        self._forget(h)
+
+    def penalise_pair(self, a: int, b: int, cost: float) -> None:
+        """The transition a–b costs `cost` more."""
+        self.pair[a][b] += cost
+        self.pair[b][a] += cost
+        self._forget(a)
+
+    def second_loss(self, junction: int) -> float:
+        """How much more than the best any other matching at a junction costs."""
+        least, chosen = self.best(junction)
+        ends = self.incident[junction]
+        if len(ends) <= ENUMERATED_DEGREE:
+            others = (cost for cost, pairs in self.matchings(junction) if pairs != chosen)
+            return min(others, default=math.inf) - least
+        if len(ends) > _SOLVED_DEGREE:
+            return 0.0
+        left = [h for h in ends if all(h not in pair for pair in chosen)]
+        added = [
+            self.pair[a][b] - self.free[a] - self.free[b] for a in left for b in left if b in self.pair[a]
+        ]
+        without = [self._by_subsets(ends, pair)[0] - least for pair in chosen]
+        return max(0.0, min([*added, *without], default=math.inf))
+
+    def _forget(self, h: int) -> None:
+        self._best.pop(self._junction_of[h], None)
+
+    def _extended(
+        self, left: tuple[int, ...], cost: float, pairs: Matching
+    ) -> Iterator[tuple[float, Matching]]:
+        if not left:
+            yield cost, tuple(sorted(pairs))
+            return
+        for step, used, made in self._choices(left, None):
+            rest = tuple(h for h in left if h not in used)
+            yield from self._extended(rest, cost + step, pairs + made)
+
+    def _by_subsets(self, ends: tuple[int, ...], without: Pair | None = None) -> tuple[float, Matching]:
+        """Dynamic programme over the half-edges that are still to be decided."""
+        known: dict[tuple[int, ...], tuple[float, Matching]] = {(): (0.0, ())}
+
+        def solve(left: tuple[int, ...]) -> tuple[float, Matching]:
+            if left not in known:
+                least: tuple[float, Matching] = (math.inf, ())
+                for step, used, made in self._choices(left, without):
+                    cost, pairs = solve(tuple(h for h in left if h not in used))
+                    if cost + step < least[0]:
+                        least = (cost + step, pairs + made)
+                known[left] = least
+            return known[left]
+
+        cost, pairs = solve(ends)
+        return cost, tuple(sorted(pairs))
+
+    def _choices(
+        self, left: tuple[int, ...], without: Pair | None
+    ) -> Iterator[tuple[float, tuple[int, ...], Matching]]:
+        """What may become of the first half-edge: cost, half-edges decided, transitions made."""
+        h, rest = left[0], left[1:]
+        other, both = self.loose.get(h, (h, 0.0))
+        if other in rest:
+            yield self.free[h] + self.free[other] + both, (h, other), ()
+            for b in rest:
+                if b in self.pair[other] and (min(b, other), max(b, other)) != without:
+                    cost = self.free[h] + self.pair[other][b]
+                    yield cost, (h, other, b), ((min(b, other), max(b, other)),)
+        else:
+            yield self.free[h], (h,), ()
+        for b in rest:
+            if b in self.pair[h] and (h, b) != without:
+                yield self.pair[h][b], (h, b), ((h, b),)

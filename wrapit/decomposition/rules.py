@@ -1,0 +1,71 @@
+"""What the user asks of the wires, in terms of half-edges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from wrapit.decomposition.graph import Graph
+from wrapit.decomposition.model import NO_MATE
+
+Pair = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Rules:
+    """Conditions on a matching; pairs are sorted half-edges.
+
+    `forbidden` transitions never happen; of each group in `required` one does; `ends_at` junctions
+    have a wire end; `same` segments lie on one wire, `apart` segments on two; no wire is longer than
+    `longest_mm`.
+    """
+
+    forbidden: frozenset[Pair] = frozenset()
+    required: tuple[tuple[Pair, ...], ...] = ()
+    ends_at: frozenset[int] = frozenset()
+    same: tuple[Pair, ...] = ()
+    apart: tuple[Pair, ...] = ()
+    longest_mm: float | None = None
+
+
+NO_RULES = Rules()
+
+
+def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
+    """How many conditions a matching breaks, wires that are too long counted one by one."""
+    if rules == NO_RULES:
+        return 0
+    count = sum(mate[a] == b for a, b in rules.forbidden)
+    count += sum(all(mate[a] != b for a, b in group) for group in rules.required)
+    for junction in rules.ends_at:
+        count += not any(mate[h] == NO_MATE and in_use(graph, mate, h >> 1) for h in graph.incident[junction])
+    count += sum(f not in wire_through(mate, e) for e, f in rules.same)
+    count += sum(f in wire_through(mate, e) for e, f in rules.apart)
+    if rules.longest_mm is not None:
+        count += sum(length > rules.longest_mm + 1e-9 for length in _lengths(graph, mate))
+    return count
+
+
+def in_use(graph: Graph, mate: Sequence[int], e: int) -> bool:
+    """Whether a segment is part of a wire: strokes always, a bridge where it joins something."""
+    return e not in graph.bridges or mate[2 * e] != NO_MATE or mate[2 * e + 1] != NO_MATE
+
+
+def wire_through(mate: Sequence[int], e: int) -> set[int]:
+    """Segments of the wire (or ring) that runs along a segment."""
+    segments = {e}
+    for h in (2 * e, 2 * e + 1):
+        x = mate[h]
+        while x != NO_MATE and x >> 1 not in segments:
+            segments.add(x >> 1)
+            x = mate[x ^ 1]
+    return segments
+
+
+def _lengths(graph: Graph, mate: Sequence[int]) -> Iterator[float]:
+    seen: set[int] = set()
+    for e in range(graph.segments):
+        if e not in seen and in_use(graph, mate, e):
+            wire = wire_through(mate, e)
+            seen |= wire
+            yield sum(graph.lengths_mm[f] for f in sorted(wire))

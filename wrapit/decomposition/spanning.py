@@ -1,0 +1,171 @@
+"""Spanning trees over rings, where one change of matching may do the work of several branches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from wrapit.decomposition.local import Matching
+
+GROUND = 0
+"""The node that stands for everything with wire ends; rings count from 1."""
+
+Group = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Link:
+    """Another matching at a junction: its loss, and the groups of nodes that it links.
+
+    `pairs` is None where a junction has too many matchings to say which.
+    """
+
+    loss: float
+    junction: int
+    pairs: Matching | None
+    groups: tuple[Group, ...]
+
+    @cached_property
+    def share(self) -> float:
+        """Loss for each branch of the tree that it does the work of."""
+        return self.loss / sum(len(group) - 1 for group in self.groups)
+
+
+class Branch(NamedTuple):
+    """One branch of a spanning tree."""
+
+    u: int
+    w: int
+    link: Link
+
+
+class Sets:
+    """Disjoint sets, few and small."""
+
+    def __init__(self, groups: Iterable[Group] = ()) -> None:
+        self._parent: dict[int, int] = {}
+        for group in groups:
+            self.merge_all(group)
+
+    def merge(self, x: int, y: int) -> bool:
+        """Puts x and y into one set; says whether they were apart."""
+        x, y = self._root(x), self._root(y)
+        if x == y:
+            return False
+        self._parent[max(x, y)] = min(x, y)
+        return True
+
+    def merge_all(self, group: Group) -> int:
+        """Puts a group into one set; says how many mergers that took."""
+        return sum(self.merge(group[0], node) for node in group[1:])
+
+    def groups(self) -> tuple[Group, ...]:
+        """The sets with two members and more."""
+        groups: dict[int, list[int]] = {}
+        for x in sorted(self._parent):
+            groups.setdefault(self._root(x), []).append(x)
+        return tuple(tuple(group) for group in groups.values() if len(group) > 1)
+
+    def _root(self, x: int) -> int:
+        parent = self._parent
+        while (above := parent.setdefault(x, x)) != x:
+            parent[x] = parent[above]
+            x = above
+        return x
+
+
+def by_share(links: Iterable[Link]) -> list[Link]:
+    """Links in the order in which Kruskal's algorithm takes them."""
+    return sorted(links, key=lambda link: (link.share, link.junction, link.groups))
+
+
+def spanning_tree(
+    links: Iterable[Link], rings: int, opening: Link | None = None
+) -> tuple[float, list[Branch]]:
+    """Kruskal: weight and branches of a minimum spanning tree; `links` come by share.
+
+    What `opening` links is taken as done, and nothing else happens at its junction.
+    """
+    sets = Sets()
+    missing = rings
+    if opening:
+        missing -= sum(sets.merge_all(group) for group in opening.groups)
+    weight, tree = 0.0, []
+    for link in links:
+        if not missing:
+            break
+        if opening and link.junction == opening.junction:
+            continue
+        for group in link.groups:
+            for node in group[1:]:
+                if sets.merge(group[0], node):
+                    weight += link.share
+                    tree.append(Branch(group[0], node, link))
+                    missing -= 1
+    return weight, tree
+
+
+def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link]:
+    """A drawing of rings only has to be opened somewhere: the least bound over the places to do it.
+
+    The junction that opens pays its whole loss, not the share that the spanning tree counts.
+    """
+    plain, tree = spanning_tree(links, rings)
+    rooted = _Rooted(tree)
+    openings = [
+        (link.loss + plain - rooted.spared(link.groups), link)
+        for link in links
+        if any(group[0] == GROUND for group in link.groups)
+    ]
+    if not openings:
+        raise ValueError("no junction of a drawing of rings can be opened")
+    best: tuple[float, Link] | None = None
+    for optimistic, link in sorted(openings, key=lambda opening: (opening[0], opening[1].junction)):
+        if best is not None and optimistic > best[0] - 1e-12:
+            break
+        bound = link.loss + spanning_tree(links, rings, link)[0]
+        if best is None or bound < best[0] - 1e-12:
+            best = (bound, link)
+    assert best is not None
+    return best
+
+
+class _Rooted:
+    """A spanning tree hung up at the ground."""
+
+    def __init__(self, tree: Iterable[Branch]) -> None:
+        beside: dict[int, list[tuple[int, float]]] = {}
+        for u, w, link in tree:
+            beside.setdefault(u, []).append((w, link.share))
+            beside.setdefault(w, []).append((u, link.share))
+        self._above: dict[int, tuple[int, float]] = {}
+        frontier = [GROUND]
+        while frontier:
+            u = frontier.pop()
+            for w, share in beside.get(u, ()):
+                if w != GROUND and w not in self._above:
+                    self._above[w] = (u, share)
+                    frontier.append(w)
+
+    def spared(self, groups: Iterable[Group]) -> float:
+        """What the tree no longer has to pay once the nodes of each group are linked.
+
+        Only branches between them and the ground can fall away.
+        """
+        branches: dict[int, tuple[float, int]] = {}
+        for start in (node for group in groups for node in group):
+            node = start
+            while node != GROUND and node not in branches:
+                above, share = self._above[node]
+                branches[node] = (share, above)
+                node = above
+        sets = Sets(groups)
+        return sum(
+            share
+            for share, node, above in sorted(
+                (share, node, above) for node, (share, above) in branches.items()
+            )
+            if not sets.merge(node, above)
+        )
