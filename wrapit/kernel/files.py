@@ -1,0 +1,142 @@
+"""STEP, STL and 3MF files of named, coloured parts; the same parts give the same bytes."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from wrapit.errors import ExportError
+from wrapit.kernel.guard import guarded
+from wrapit.kernel.meshes import Mesh, mesh_of
+from wrapit.kernel.steptext import canonical_step
+
+STL_ANGLE_RAD = 0.2
+COARSE_TOLERANCE_MM, COARSE_ANGLE_RAD = 0.02, 0.3
+_ZIP_DATE = (1980, 1, 1, 0, 0, 0)
+
+
+@dataclass(frozen=True, eq=False)
+class FilePart:
+    """A named solid with its sRGB colour `#rrggbb`, and edges that go with it (such as its centreline)."""
+
+    name: str
+    solid: Any
+    colour: str
+    edges: tuple[Any, ...] = ()
+
+
+def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
+    """AP214 in mm: a tree `name`/{parts}, each with name and colour; edges beside their part.
+
+    Raises ExportError if the file can't be written, KernelError if the kernel fails.
+    """
+    import cadquery
+
+    with guarded("writing STEP", path.name):
+        tree = cadquery.Assembly(name=name)
+        for part in parts:
+            colour = cadquery.Color(*_channels(part.colour))
+            tree.add(cadquery.Shape.cast(part.solid), name=part.name, color=colour)
+            for index, edge in enumerate(part.edges, start=1):
+                suffix = "centreline" if len(part.edges) == 1 else f"curve-{index}"
+                tree.add(cadquery.Shape.cast(edge), name=f"{part.name} {suffix}", color=colour)
+        if not _export(tree, path):
+            raise ExportError("the STEP file can't be written", str(path))
+    path.write_text(canonical_step(path.read_text(encoding="latin-1"), path.name), encoding="latin-1")
+
+
+def write_stl(path: Path, solids: Sequence[Any], tolerance_mm: float) -> None:
+    """Binary STL, watertight, no facet farther from the surface than the tolerance."""
+    with guarded("writing STL", path.name):
+        mesh = mesh_of(solids, tolerance_mm, STL_ANGLE_RAD)
+    a, b, c = (mesh.corners[mesh.triangles[:, k]].astype("<f4") for k in range(3))
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    facets = np.zeros(len(a), dtype=[("vectors", "<f4", (4, 3)), ("attribute", "<u2")])
+    facets["vectors"] = np.stack([normal / np.where(length > 0, length, 1), a, b, c], axis=1)
+    header = b"wrapit, mm".ljust(80)
+    path.write_bytes(header + np.uint32(len(facets)).tobytes() + facets.tobytes())
+
+
+def write_3mf(
+    path: Path,
+    parts: Sequence[FilePart],
+    tolerance_mm: float = COARSE_TOLERANCE_MM,
+    angle_rad: float = COARSE_ANGLE_RAD,
+) -> None:
+    """3MF in mm (core specification 1.3): one named, coloured object for each part, in place."""
+    with guarded("writing 3MF", path.name):
+        meshes = [mesh_of([part.solid], tolerance_mm, angle_rad) for part in parts]
+    entries = {
+        "[Content_Types].xml": _CONTENT_TYPES,
+        "_rels/.rels": _RELATIONS,
+        "3D/3dmodel.model": _model(parts, meshes),
+    }
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+        for name, text in entries.items():
+            info = zipfile.ZipInfo(name, _ZIP_DATE)
+            info.compress_type = zipfile.ZIP_DEFLATED
+            info.create_system = 3
+            archive.writestr(info, text)
+
+
+def _export(tree: Any, path: Path) -> bool:
+    from cadquery.occ_impl.exporters.assembly import exportAssembly
+    from OCP.Interface import Interface_Static
+
+    Interface_Static.SetCVal_s("write.step.schema", "AP214IS")
+    Interface_Static.SetCVal_s("write.step.unit", "MM")
+    return bool(exportAssembly(tree, str(path), write_pcurves=False))
+
+
+def _channels(colour: str) -> tuple[float, float, float]:
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue
+
+
+def _model(parts: Sequence[FilePart], meshes: Sequence[Mesh]) -> str:
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        '<model unit="millimeter" xml:lang="en-US"'
+        ' xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">',
+        '<metadata name="Application">wrapit</metadata>',
+        "<resources>",
+        '<basematerials id="1">',
+    ]
+    lines += [
+        f"<base name={quoteattr(p.name)} displaycolor={quoteattr(p.colour.upper() + 'FF')}/>" for p in parts
+    ]
+    lines.append("</basematerials>")
+    for index, (part, mesh) in enumerate(zip(parts, meshes, strict=True)):
+        lines.append(
+            f'<object id="{index + 2}" type="model" name={quoteattr(part.name)} pid="1" pindex="{index}">'
+        )
+        lines += ["<mesh>", "<vertices>"]
+        lines += [f'<vertex x="{x:.5f}" y="{y:.5f}" z="{z:.5f}"/>' for x, y, z in mesh.corners.tolist()]
+        lines += ["</vertices>", "<triangles>"]
+        lines += [f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in mesh.triangles.tolist()]
+        lines += ["</triangles>", "</mesh>", "</object>"]
+    lines += ["</resources>", "<build>"]
+    lines += [f'<item objectid="{index + 2}"/>' for index in range(len(parts))]
+    return "\n".join([*lines, "</build>", "</model>", ""])
+
+
+_CONTENT_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+"""
+
+_RELATIONS = """<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Target="/3D/3dmodel.model" Id="rel0"
+ Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+"""

@@ -1,0 +1,105 @@
+"""STEP text in one canonical form: entity order and numbers don't depend on memory addresses.
+
+Each entity gets a digest of its text with references replaced by the digests of what they name; entities
+are then numbered in the order in which they are reached from the roots, roots sorted by digest.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+
+FIXED_TIME = "2000-01-01T00:00:00"
+_ENTITY = re.compile(r"#(\d+)\s*=\s*(.*?);\s*(?=#\d+\s*=|ENDSEC)", re.DOTALL)
+_REFERENCE = re.compile(r"#(\d+)")
+_STRING = re.compile(r"('(?:[^']|'')*')")
+_USAGE = re.compile(r"^(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
+_FILE_NAME = re.compile(r"FILE_NAME\(.*?\);", re.DOTALL)
+
+
+def canonical_step(text: str, file_name: str) -> str:
+    """The same model, written so that equal models have equal bytes."""
+    header, data = text.split("DATA;", 1)
+    header = _FILE_NAME.sub(lambda _: _file_name(file_name), header)
+    entities = {int(m[1]): _USAGE.sub(r"\1''", " ".join(m[2].split())) for m in _ENTITY.finditer(data)}
+    uses = {number: _references(body) for number, body in entities.items()}
+    digests = _digests(entities, uses)
+    used = {reference for references in uses.values() for reference in references}
+    roots = sorted((n for n in entities if n not in used), key=lambda n: (digests[n], n))
+    order = _reached(roots, uses)
+    numbers = {old: new for new, old in enumerate(order, start=1)}
+    usages = 0
+    lines = []
+    for old in order:
+        body = _renumbered(entities[old], numbers)
+        if body.startswith("NEXT_ASSEMBLY_USAGE_OCCURRENCE(''"):
+            usages += 1
+            body = body.replace("(''", f"('{usages}'", 1)
+        lines.append(f"#{numbers[old]}={body};")
+    return header + "DATA;\n" + "\n".join(lines) + "\nENDSEC;\nEND-ISO-10303-21;\n"
+
+
+def _file_name(file_name: str) -> str:
+    name = file_name.replace("'", "''").encode("ascii", "replace").decode()
+    return f"FILE_NAME('{name}','{FIXED_TIME}',(''),(''),'wrapit','wrapit','');"
+
+
+def _references(body: str) -> list[int]:
+    if "'" not in body:
+        return [int(number) for number in _REFERENCE.findall(body)]
+    outside = _STRING.sub("''", body)
+    return [int(number) for number in _REFERENCE.findall(outside)]
+
+
+def _renumbered(body: str, numbers: dict[int, int]) -> str:
+    def renumber(match: re.Match[str]) -> str:
+        return f"#{numbers[int(match[1])]}"
+
+    if "'" not in body:
+        return _REFERENCE.sub(renumber, body)
+    parts = _STRING.split(body)
+    return "".join(part if index % 2 else _REFERENCE.sub(renumber, part) for index, part in enumerate(parts))
+
+
+def _digests(entities: dict[int, str], uses: dict[int, list[int]]) -> dict[int, str]:
+    """Digest of each entity, those that it refers to first (the references of a STEP file have no cycles)."""
+    digests: dict[int, str] = {}
+    for start in entities:
+        stack = [start]
+        while stack:
+            number = stack[-1]
+            if number in digests:
+                stack.pop()
+                continue
+            waiting = [reference for reference in uses[number] if reference not in digests]
+            if waiting:
+                stack.extend(waiting)
+                continue
+            names = iter(digests[reference] for reference in uses[number])
+            body = _REFERENCE.sub("#", _STRING.sub(_quoted_hash, entities[number]))
+            digests[number] = hashlib.sha1("|".join([body, *names]).encode("latin-1")).hexdigest()
+            stack.pop()
+    return digests
+
+
+def _quoted_hash(match: re.Match[str]) -> str:
+    return match[1].replace("#", "\x00")
+
+
+def _reached(roots: list[int], uses: dict[int, list[int]]) -> list[int]:
+    """Every entity after those that it refers to, depth first from the roots."""
+    order: list[int] = []
+    done: set[int] = set()
+    for root in roots:
+        stack = [(root, False)]
+        while stack:
+            number, ready = stack.pop()
+            if number in done:
+                continue
+            if ready:
+                done.add(number)
+                order.append(number)
+                continue
+            stack.append((number, True))
+            stack.extend((reference, False) for reference in reversed(uses[number]) if reference not in done)
+    return order
