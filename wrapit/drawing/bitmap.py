@@ -25,7 +25,8 @@ from wrapit.drawing.junctions import Arm, Ending, arms_at, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
 from wrapit.drawing.picture import Picture, read_picture
-from wrapit.drawing.skeleton import network
+from wrapit.drawing.pinholes import without_pinholes
+from wrapit.drawing.skeleton import network, thin
 from wrapit.errors import Finding
 from wrapit.geometry import BezierChain, unit
 from wrapit.geometry.fitting import Stroke, fit_all
@@ -40,6 +41,10 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     ink, skeleton = picture.ink, picture.skeleton
     width_px = skeleton.width_px
     net = network(skeleton.pixels, skeleton.pairs)
+    filled = without_pinholes(net, ink.mask, width_px)
+    if filled is not None:
+        skeleton = thin(filled)
+        net = network(skeleton.pixels, skeleton.pairs)
     radius = Radii(skeleton.pixels, skeleton.distance)
     net.rejoin_all()
     tidy(net, radius, width_px)
