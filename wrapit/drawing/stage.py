@@ -26,6 +26,10 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
         from wrapit.drawing.files import read_drawing
 
         return read_drawing(path, size_mm), ()
+    if suffix == ".svg":
+        from wrapit.drawing.svg import trace_svg
+
+        return trace_svg(path, tracing, size_mm)
     if suffix not in BITMAPS:
         raise DrawingError(
             f"unknown kind of drawing {suffix!r}",
