@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from wrapit.config import JigConfig
 from wrapit.decomposition.model import (
     NO_MATE,
     Decomposition,
@@ -19,6 +20,7 @@ from wrapit.decomposition.model import (
 from wrapit.drawing.model import Drawing, Junction, Removal, Segment
 from wrapit.geometry import BezierChain, from_chain, joined, straight
 from wrapit.wires.model import Binding, Wire
+from wrapit.wires.turns import find_turns
 
 COLOURS = ("#b87333", "#2a78b8", "#3f8f4f", "#8a4fb0")
 
@@ -107,15 +109,16 @@ def _wire(drawing: Drawing, index: int, trail: Trail, walks: tuple[Trail, ...]) 
             x, y = drawing.junctions[junction].point
             bindings.append(Binding(junction, float(at), others, (float(x), float(y))))
     length = float(reach[-1])
+    name, spline = f"wire-{index + 1:02d}", from_chain(chain)
     return Wire(
-        name=f"wire-{index + 1:02d}",
-        centreline=from_chain(chain),
+        name=name,
+        centreline=spline,
         diameter_mm=1.02,
         length_mm=length,
         cut_length_mm=length + max(50.0, 0.15 * length),
         traversals=trail.traversals,
         segment_spans_mm=tuple((float(a), float(b)) for a, b in itertools.pairwise(reach)),
-        turns=(),
+        turns=find_turns(name, spline, JigConfig())[0],
         bindings=tuple(bindings),
         min_bend_radius_mm=3.0,
         max_deviation_from_drawing_mm=0.0,
@@ -147,3 +150,47 @@ def eye() -> tuple[Solution, tuple[Wire, ...]]:
     )
     steps = [(4, True), (0, False), (1, False), (2, False), (3, False), (4, False)]
     return solution_of(drawing, [steps, [(5, False)]])
+
+
+def hairpin() -> tuple[Wire, ...]:
+    """A wire that turns back on a radius of 1.6 mm, between legs of 25 mm."""
+    turn = arc_chain((25, 1.6), 1.6, -math.pi / 2, math.pi).points.copy()
+    turn[0, 0], turn[-1, 3] = (25.0, 0.0), (25.0, 3.2)
+    chain = joined([straight((0, 0), (25, 0)), BezierChain(turn), straight((25, 3.2), (0, 3.2))])
+    return solution_of(drawing_of([chain]), [[(0, False)]])[1]
+
+
+def spiral(pitch_mm: float = 6.0, turns: float = 3.0) -> tuple[Wire, ...]:
+    """An Archimedean spiral from a radius of 4 mm outward, closed by an arc and a line back to its start."""
+    angles = np.linspace(0, math.tau * turns, round(12 * turns) + 1)
+    radii = 4 + pitch_mm * angles / math.tau
+    on = radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    slope = pitch_mm / math.tau
+    along = (
+        np.column_stack(
+            [
+                slope * np.cos(angles) - radii * np.sin(angles),
+                slope * np.sin(angles) + radii * np.cos(angles),
+            ]
+        )
+        * (angles[1] - angles[0])
+        / 3
+    )
+    cubics = np.stack([on[:-1], on[:-1] + along[:-1], on[1:] - along[1:], on[1:]], axis=1)
+    return solution_of(drawing_of([BezierChain(cubics)]), [[(0, False)]])[1]
+
+
+def sixteen() -> tuple[Wire, ...]:
+    """Sixteen wavy wires, eight across eight."""
+    curves = []
+    for index in range(8):
+        for upright in (False, True):
+            y = 9.0 * index
+            waves = [
+                arc_chain((6.0 + 12 * k, y), 6.0, math.pi, -math.pi if k % 2 else math.pi) for k in range(6)
+            ]
+            points = np.concatenate([wave.points for wave in waves]).copy()
+            points[1:, 0] = points[:-1, 3]
+            chain = BezierChain(points[..., ::-1] if upright else points)
+            curves.append(chain)
+    return solution_of(drawing_of(curves), [[(index, False)] for index in range(16)])[1]

@@ -64,6 +64,9 @@ def test_order_colours_and_layers_follow_the_profile(tmp_path: Path) -> None:
         order = [entity.dxf.layer for entity in document.modelspace()]
         layers = [looks[layer].name for layer in ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")]
         assert [layers.index(layer) for layer in order] == sorted(layers.index(layer) for layer in order)
+        if name == "plain":
+            kinds = {entity.dxftype() for entity in document.modelspace()}
+            assert kinds <= {"LINE", "ARC", "CIRCLE"}
         for entity in document.modelspace():
             look = next(look for look in looks.values() if look.name == entity.dxf.layer)
             assert (entity.dxf.color, entity.rgb) == (look.aci, look.rgb)
@@ -89,7 +92,7 @@ def test_engraving_keeps_clear_of_cuts_and_is_drawn_once() -> None:
     paths = [edge for contour in engraved for edge in contour.edges if isinstance(edge, BezierChain)]
     wall = Polygon(WALL.outer.sampled(0.01))
     lines = [LineString(path.sampled(0.05)) for path in paths]
-    assert all(line.distance(wall) > 0.4 for line in lines)
+    assert all(line.distance(wall) > 0.24 for line in lines)
     for a, b in itertools.combinations(lines, 2):
         assert a.intersection(b.buffer(1e-3)).length < 0.1
     # The bar runs through the wall, the stem is run along twice but engraved once.
@@ -97,11 +100,31 @@ def test_engraving_keeps_clear_of_cuts_and_is_drawn_once() -> None:
     whole = sum(segment.curve.length for segment in solution.decomposition.drawing.segments)
     assert drawn == pytest.approx(
         whole
-        - wall.buffer(0.5)
+        - wall.buffer(0.25)
         .intersection(LineString(solution.decomposition.drawing.segments[5].curve.sampled(0.05)))
         .length,
         abs=0.2,
     )
+
+
+@pytest.mark.parametrize("curves", ["arc", "polyline"])
+def test_curves_keep_to_the_tolerance(tmp_path: Path, curves: str) -> None:
+    oval = arc_chain((0, 0), 8.0, 0.0, 2 * math.pi).points * np.array([1.0, 0.5])
+    oval[-1, 3] = oval[0, 0]
+    loop = Loop((BezierChain(oval),))
+    contour = Contour("CUT_OUTER", loop.edges)
+    counts = []
+    exact = Polygon(loop.sampled(1e-5)).exterior
+    for tolerance in (0.05, 0.005):
+        path = tmp_path / f"{tolerance}.dxf"
+        write_dxf(path, [contour], "lightburn", curves, tolerance)
+        (polygon,) = polygons(ezdxf.readfile(path), "CUT_OUTER")
+        assert polygon.exterior.hausdorff_distance(exact) <= tolerance + 2e-4
+        (entity,) = ezdxf.readfile(path).modelspace()
+        assert entity.dxftype() == "LWPOLYLINE"
+        assert entity.closed
+        counts.append(len(entity))
+    assert counts[0] < counts[1]
 
 
 def test_open_cuts_are_refused(tmp_path: Path) -> None:

@@ -28,8 +28,9 @@ _KERF_REMEDY = "measure the kerf with `wrapit coupon` and set plate.kerf, or mak
 class Inlay:
     """A wall piece and its pocket. Loops are counter-clockwise.
 
-    `wall` and `pocket` are finished shapes; the pocket's holes are islands of plate inside a ring wall.
-    `piece_cuts` cut the piece, `pocket_cut` opens the pocket, `island_cuts` free each island.
+    `wall` is the planned shape (the beam rounds its corners a little), `pocket` the finished one, whose
+    holes are islands of plate inside a ring wall. `piece_cuts` cut the piece, `pocket_cut` opens the
+    pocket, `island_cuts` free each island.
     """
 
     number: int
@@ -95,15 +96,51 @@ def _inlay(number: int, wall: Region, config: PlateConfig, offset: Offset) -> tu
         exact.append(result.exact)
         return result.loop
 
-    cores = [reversed_loop(hole) for hole in wall.holes]
-    inner = [moved(core, -half_mm, "the hole inside this wall") for core in cores]
-    outer = moved(wall.outer, half_mm, "this wall")
-    islands = [moved(core, -fit_mm, "the hole inside this wall") for core in cores]
-    pocket = Region(moved(wall.outer, fit_mm, "this wall"), tuple(map(reversed_loop, islands)))
-    pieces = (*(Contour("CUT_INNER", loop.edges) for loop in inner), Contour("CUT_OUTER", outer.edges))
-    pocket_cut = moved(wall.outer, fit_mm - half_mm, "the pocket of this wall")
-    island_cuts = [moved(core, half_mm - fit_mm, "the hole inside this wall") for core in cores]
-    return Inlay(number, wall, pocket, pieces, pocket_cut, tuple(island_cuts)), all(exact)
+    def mated(loop: Loop, hollow_mm: float, solid_mm: float, what: str) -> tuple[Loop, Loop]:
+        """Cuts of a hollow and of the solid that fills it, which lie these distances beside the loop.
+
+        The beam is round: hollows can't have sharper outer corners than half a kerf, solids no sharper
+        inner ones. Each is derived from the other, so that what one can't have, the other hasn't.
+        """
+        apart_mm = config.kerf - fit_mm
+        solid = moved(moved(loop, hollow_mm, what), apart_mm, what) if fit_mm < half_mm else None
+        solid = moved(loop, solid_mm, what) if solid is None else solid
+        return moved(solid, -apart_mm, what), solid
+
+    pocket_cut, outer = mated(wall.outer, fit_mm - half_mm, half_mm, "this wall")
+    rings = [
+        mated(reversed_loop(hole), -half_mm, half_mm - fit_mm, "the hole inside this wall")
+        for hole in wall.holes
+    ]
+    inlay = Inlay(
+        number,
+        wall,
+        Region(
+            _finished(pocket_cut, half_mm),
+            tuple(reversed_loop(_finished(island, -half_mm)) for _, island in rings),
+        ),
+        (
+            *(Contour("CUT_INNER", reversed_loop(hollow).edges) for hollow, _ in rings),
+            Contour("CUT_OUTER", outer.edges),
+        ),
+        pocket_cut,
+        tuple(island for _, island in rings),
+    )
+    return inlay, all(exact)
+
+
+def _finished(cut: Loop, half_mm: float) -> Loop:
+    """What the beam leaves beside a cut, as lines; only pictures and measurements need it."""
+    from shapely import Polygon
+
+    return _lines(Polygon(cut.sampled(_FLAT_MM / 10)).buffer(half_mm, quad_segs=16))
+
+
+def _lines(polygon: Polygon) -> Loop:
+    """The polygon's outer ring, counter-clockwise, without needless points."""
+    ring = polygon.simplify(_FLAT_MM / 4).exterior.normalize().coords[:-1]
+    edges = tuple(Line(a, b) for a, b in zip(ring, (*ring[1:], ring[0]), strict=True))
+    return oriented(Region(Loop(edges))).outer
 
 
 def moved_outline(loop: Loop, distance_mm: float, offset: Offset) -> Moved | None:
@@ -121,9 +158,7 @@ def moved_outline(loop: Loop, distance_mm: float, offset: Offset) -> Moved | Non
     results = [oriented(region) for region in offset(Region(loop), distance_mm)]
     if len(results) == 1 and not results[0].holes and _agrees(results[0].outer, expected):
         return Moved(results[0].outer, exact=True)
-    ring = expected.simplify(_FLAT_MM / 4).exterior.normalize().coords[:-1]
-    lines = (Line(a, b) for a, b in zip(ring, (*ring[1:], ring[0]), strict=True))
-    return Moved(oriented(Region(Loop(tuple(lines)))).outer, exact=False)
+    return Moved(_lines(expected), exact=False)
 
 
 def _agrees(loop: Loop, expected: Polygon) -> bool:

@@ -71,7 +71,7 @@ def _packed(
     sizes: Sequence[FloatArray], room: FloatArray, spacing_mm: float
 ) -> list[list[tuple[int, float, float, bool]]]:
     """For each sheet (part, x, y, turned); every part is taken with the spacing to its right and above."""
-    from rectpack import newPacker  # type: ignore[import-untyped]  # ships no types
+    from rectpack import newPacker
 
     packer = newPacker(rotation=True)
     whole = [[math.ceil((side + spacing_mm) * _UNITS_PER_MM) for side in size] for size in sizes]
@@ -100,7 +100,7 @@ def _placed(part: LaserPart, quarters: int, shift: FloatArray) -> Placed:
 
 def _box(part: LaserPart) -> tuple[FloatArray, FloatArray]:
     """Lower left and upper right corner of all that the laser draws for a part."""
-    points = np.vstack([Loop(contour.edges).sampled(0.01) for contour in part.contours])
+    points = np.vstack([Loop(contour.edges).sampled(2e-4) for contour in part.contours])
     ends = np.array([contour.edges[-1].end for contour in part.contours])
     points = np.vstack([points, ends])
     return points.min(axis=0), points.max(axis=0)

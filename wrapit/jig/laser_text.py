@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -38,13 +39,20 @@ def _strokes(text: str, height_mm: float) -> list[FloatArray]:
 @cache
 def _unit_strokes(text: str) -> tuple[tuple[tuple[float, float], ...], ...]:
     """The letters' strokes with capitals one millimetre tall."""
-    from HersheyFonts import HersheyFonts  # type: ignore[import-untyped]  # ships no types
+    font = _font()
+    strokes = [_distinct(np.array(stroke)) for stroke in font.strokes_for_text(text)]
+    return tuple(tuple((float(x), float(y)) for x, y in s) for s in strokes if len(s) > 1)
+
+
+@cache
+def _font() -> Any:
+    """Hershey's simplex letters; reading the package's archive takes longer than all the rest."""
+    from HersheyFonts import HersheyFonts
 
     font = HersheyFonts()
     font.load_default_font("futural")
     font.normalize_rendering(1 / _CAPITAL)
-    strokes = [_distinct(np.array(stroke)) for stroke in font.strokes_for_text(text)]
-    return tuple(tuple((float(x), float(y)) for x, y in s) for s in strokes if len(s) > 1)
+    return font
 
 
 def _distinct(stroke: FloatArray) -> FloatArray:
