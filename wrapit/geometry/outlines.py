@@ -1,7 +1,7 @@
 """Exact outlines from polygons: the parts of a polygon that follow a parallel become that parallel.
 
 A polygon operation (union, difference, opening) is robust but only about right; here it decides what
-meets what, and the curves it was sampled from decide where, to 2e-6 mm. Where two parallels meet, their
+meets what, and the curves it was sampled from decide where, to 5e-5 mm. Where two parallels meet, their
 common point is found by Newton's method; where they run together too closely for one (tangent wires),
 a short straight edge joins them, on the polygon's side of both.
 """
@@ -186,10 +186,11 @@ def _jumps(
     steps = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
     for name, parallel in parallels.items():
         if isinstance(parallel, Side):
-            mine = (key == name) & ~jump
-            leap = np.abs(np.roll(place, -1) - place)
+            mine = np.flatnonzero((key == name) & ~jump)
+            start, end = place[mine], np.roll(place, -1)[mine]
             # A piece is at most about 1 mm long; inside a tight bend a parallel moves slower than its curve.
-            jump |= mine & (leap > 6 * steps + 0.6)
+            leap = np.abs(end - start) > 6 * steps[mine] + 0.6
+            jump[mine[leap | parallel.folds(start, end)]] = True
     return jump
 
 

@@ -7,16 +7,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.geometry.arrays import FloatArray, unit
 from wrapit.geometry.bezier import BezierChain, evaluate, straight
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.loops import Arc, Edge, Line, Point
 
-TOLERANCE_MM = 2e-6
+BoolArray: TypeAlias = NDArray[np.bool_]
+TOLERANCE_MM = 5e-5
 _ARC_PIECE_RAD = math.pi / 24
+_FOLD_CHECKS = 9
 _CHECKS = np.array([0.25, 0.5, 0.75])
 
 
@@ -50,6 +54,18 @@ class Side:
         which = np.full(len(place), self.curve)
         piece, t = self.curves.split_place(which, place)
         return _parallel_points(self.curves.pieces[piece], t, self.offset_mm)
+
+    def folds(self, start: FloatArray, end: FloatArray) -> BoolArray:
+        """Whether the parallel runs backwards somewhere between places (m,) and (m,): (m,).
+
+        It does where the curve bends more sharply than the offset; that part is never on an outline.
+        """
+        folded = np.zeros(len(start), dtype=bool)
+        which = np.full(len(start), self.curve)
+        for share in np.linspace(0.0, 1.0, _FOLD_CHECKS):
+            _, _, curvature = self.curves.frame(which, start + share * (end - start))
+            folded |= self.offset_mm * curvature > 1.0
+        return folded
 
     @property
     def bounds(self) -> tuple[float, float]:
