@@ -13,14 +13,15 @@ from wrapit.drawing.cleanup import (
     Radii,
     contract_short,
     drop_crumbs,
-    keep_largest,
     tidy,
 )
+from wrapit.drawing.components import Connected, connect
 from wrapit.drawing.corners import split_corners
 from wrapit.drawing.crossings import join_crossings
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
-from wrapit.drawing.inspection import refuse_other_pictures
+from wrapit.drawing.inspection import refuse_loose_strokes, refuse_other_pictures
+from wrapit.drawing.joining import close_gaps, drop_short
 from wrapit.drawing.junctions import Arm, Ending, arms_at, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
@@ -52,25 +53,31 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     contract_short(net, radius, 0.35)
     tidy(net, radius, width_px)
     drop_crumbs(net, width_px)
-    keep_largest(net, width_px)
+    refuse_loose_strokes(net, str(path))
     lines = centre_lines(net, ink, width_px)
     join_crossings(net, lines, width_px)
     contract_short(net, radius, 1.0)
     if tidy(net, radius, width_px):
         lines = centre_lines(net, ink, width_px)
+    close_gaps(net, lines, ink, width_px)
     split_corners(net, lines, width_px, tracing.corner_angle)
+    size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
+    drop_short(net, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
     pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
-    return _drawing(net, pieces, picture, size_mm)
+    connected = connect(net.nodes, pieces, tracing.components, 0.25 * size_px)
+    net.changes += connected.changes
+    net.notices += connected.notices
+    return _drawing(net, connected, picture, size_mm)
 
 
 def _drawing(
-    net: Network, pieces: list[Piece], picture: Picture, size_mm: float
+    net: Network, connected: Connected, picture: Picture, size_mm: float
 ) -> tuple[Drawing, tuple[Finding, ...]]:
     pieces = [
         Piece(piece.start, piece.end, BezierChain(picture.source(piece.curve.points)), piece.kind)
-        for piece in pieces
+        for piece in connected.pieces
     ]
-    places = {node: picture.source(point) for node, point in net.nodes.items()}
+    places = {node: picture.source(point) for node, point in connected.places.items()}
     where = placement([piece.curve for piece in pieces], size_mm, flip=True)
     changes = [
         Change(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from wrapit.drawing.network import Network
 from wrapit.geometry import FloatArray
 
@@ -122,24 +120,4 @@ def drop_crumbs(net: Network, width_px: float) -> None:
             net.note("speck", net.path(strands[0]).mean(axis=0), length, "no longer than the stroke is wide")
             for strand in strands:
                 net.drop_strand(strand)
-    net.drop_lonely()
-
-
-def keep_largest(net: Network, width_px: float) -> None:
-    """Keeps the longest connected piece; a warning names each other one."""
-    for strands in components(net)[1:]:
-        length = sum(net.length(strand) for strand in strands)
-        points = np.concatenate([net.path(strand) for strand in strands])
-        middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        net.note("piece", middle, length, "not connected to the largest piece")
-        net.tell(
-            "warning",
-            "left-out",
-            middle,
-            f"a piece of the drawing that touches nothing else is left out ({length / width_px:.0f} stroke "
-            "widths long)",
-            "connect it in the drawing, or set tracing.components to join",
-        )
-        for strand in strands:
-            net.drop_strand(strand)
     net.drop_lonely()

@@ -91,8 +91,7 @@ def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: floa
 def _meeting(a: Through, b: Through, width_px: float) -> FloatArray | None:
     """Where two curves cross between their arms, or nothing."""
     first, second = (
-        (np.linspace(-0.5, 0.5, 41) * (curve.gap + width_px))[:, None]
-        ** np.arange(len(curve.coefficients))
+        (np.linspace(-0.5, 0.5, 41) * (curve.gap + width_px))[:, None] ** np.arange(len(curve.coefficients))
         @ curve.coefficients
         for curve in (a, b)
     )
@@ -110,9 +109,7 @@ def _meeting(a: Through, b: Through, width_px: float) -> FloatArray | None:
 
 
 def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
-    return [
-        arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand
-    ]
+    return [arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand]
 
 
 def _apart(curves: list[Through], line: Line) -> FloatArray:
@@ -139,4 +136,3 @@ def _misfits(line: Line, apart: FloatArray, width_px: float) -> tuple[float, flo
     measured = np.minimum(line.width[known], 2 * width_px) / width_px
     crossed = np.minimum(1 + np.abs(apart[known]) / width_px, 2.0)
     return float(np.abs(measured - crossed).mean()), float(np.abs(measured - 1).mean())
-

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from wrapit.drawing.cleanup import components
 from wrapit.drawing.ink import Ink, separability
 from wrapit.drawing.network import Network
 from wrapit.drawing.skeleton import Skeleton
@@ -20,6 +21,8 @@ _FAT_WIDTH = 2.2
 _INK_SHARE = 0.6
 _LONGEST = 3.0
 _PIECES = 40
+_LOOSE = 15
+_MAIN_SHARE = 0.2
 
 
 def refuse_crowd(ink: Ink, skeleton: Skeleton, where: str) -> None:
@@ -63,6 +66,18 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str
     if ink.mask.mean() > _INK_SHARE:
         raise DrawingError(
             f"ink covers {100 * ink.mask.mean():.0f} % of the picture", where, "draw lines on empty paper"
+        )
+
+
+def refuse_loose_strokes(net: Network, where: str) -> None:
+    """Raises DrawingError where no piece of the picture is more than a small part of it: text, hatching."""
+    pieces = components(net)
+    lengths = [sum(net.length(strand) for strand in strands) for strands in pieces]
+    if len(pieces) > _LOOSE and lengths[0] < _MAIN_SHARE * sum(lengths):
+        raise DrawingError(
+            f"the picture falls into {len(pieces)} pieces that don't touch (text or hatching?)",
+            where,
+            "draw one connected figure",
         )
 
 

@@ -184,7 +184,9 @@ def through(a: Arm, b: Arm) -> Through:
     return Through(polynomial(along, np.vstack([points_a, points_b]), degree), gap)
 
 
-def place(arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]) -> tuple[FloatArray, list[Ending]]:
+def place(
+    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]
+) -> tuple[FloatArray, list[Ending]]:
     """The point where the arms meet, and how each leaves it; `pairs` of arms continue each other.
 
     The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
@@ -192,7 +194,7 @@ def place(arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]) -> 
     """
     curves = [through(arms[i], arms[j]) for i, j in pairs]
     single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
-    point = around
+    point: FloatArray = around
     feet = [0.0] * len(curves)
     # Two curves fix the point, even where they cross at an acute angle.
     prior = 0.01 if len(curves) < 2 else 1e-4
@@ -203,7 +205,7 @@ def place(arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]) -> 
             matrix, right = _pulled(matrix, right, *curve.at(feet[k]), 1.0)
         for k in single:
             matrix, right = _pulled(matrix, right, *_extrapolated(arms[k], point), 0.3)
-        point = np.linalg.solve(matrix, right)
+        point = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     endings: dict[int, Ending] = {}
     for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):
         foot_now = curve.foot(point, foot)

@@ -81,17 +81,20 @@ def _touch(
     own = steps.curve == curve
     if own.any():
         # Its own near part is no contact: what lies within a walk of three reaches.
-        walk = np.linalg.norm(d[own], axis=1).cumsum()
-        walk = walk if at == 0 else walk[-1] - walk
+        lengths = np.linalg.norm(d[own], axis=1)
+        walk = lengths.cumsum()
+        walk = walk - lengths if at == 0 else walk[-1] - walk
         distance[np.flatnonzero(own)[walk < 3 * reach]] = np.inf
     nearest = int(np.argmin(distance))
     if distance[nearest] > reach:
         return None
     other = int(steps.curve[nearest])
     t = float(steps.start[nearest] + share[nearest] * (steps.end[nearest] - steps.start[nearest]))
-    t = _foot(curves[other], t, end)
+    t = _straight_on(curves[other], _foot(curves[other], t, end), curves[curve], at, reach)
     for tip in (0.0, float(len(curves[other]))):
-        if np.linalg.norm(_point(curves[other], tip) - end) <= min(reach, 1.5 * distance[nearest] + 1e-9 * reach):
+        if np.linalg.norm(_point(curves[other], tip) - end) <= min(
+            reach, 1.5 * distance[nearest] + 1e-9 * reach
+        ):
             t = tip
     return Contact(_point(curves[other], t), ((other, t), (curve, at)))
 
@@ -151,6 +154,27 @@ def _foot(cubics: FloatArray, at: float, point: FloatArray) -> float:
         on, d = _local(cubics[k], at - k)
         at = float(np.clip(at + (point - on) @ d / max(float(d @ d), 1e-18), 0, len(cubics)))
     return at
+
+
+def _straight_on(other: FloatArray, foot: float, own: FloatArray, at: float, reach: float) -> float:
+    """Parameter where a curve, carried on (or cut back) straight at one end, meets another near its foot."""
+    k = min(int(at), len(own) - 1)
+    end, slope = _local(own[k], at - k)
+    length = float(np.linalg.norm(slope))
+    if length < 1e-12:
+        return foot
+    s, t = 0.0, foot
+    for _ in range(8):
+        m = min(int(t), len(other) - 1)
+        on, d = _local(other[m], t - m)
+        matrix = np.column_stack([slope / length, -d])
+        if abs(np.linalg.det(matrix)) < 0.2 * np.linalg.norm(d):
+            return foot
+        step = np.linalg.solve(matrix, on - end - s * slope / length)
+        s, t = s + float(step[0]), float(np.clip(t + step[1], 0, len(other)))
+    m = min(int(t), len(other) - 1)
+    missed = np.linalg.norm(_local(other[m], t - m)[0] - end - s * slope / length)
+    return t if abs(s) <= 1.5 * reach and missed < 1e-6 * reach else foot
 
 
 def _point(cubics: FloatArray, at: float) -> FloatArray:

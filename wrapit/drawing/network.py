@@ -13,7 +13,6 @@ import numpy as np
 from wrapit.errors import Level
 from wrapit.geometry import FloatArray
 
-
 # A strand's number, and 0 for its start or 1 for its end.
 StrandEnd: TypeAlias = tuple[int, int]
 

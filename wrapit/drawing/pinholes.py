@@ -12,9 +12,7 @@ _SHORT = 1.6
 _AREA = 0.12
 
 
-def without_pinholes(
-    net: Network, mask: NDArray[np.bool_], width_px: float
-) -> NDArray[np.bool_] | None:
+def without_pinholes(net: Network, mask: NDArray[np.bool_], width_px: float) -> NDArray[np.bool_] | None:
     """The mask with pinholes filled, or nothing where there are none.
 
     Only places where short strands close a ring are looked at, not the whole picture.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,8 +46,8 @@ def planar(curves: list[Curve], reach: float, corner_rad: float) -> Planar:
     for contact in contacts:
         nodes.join([contact.point, *(_at(cubics[curve], at) for curve, at in contact.on)], contact.point)
     pieces: list[Piece] = []
-    for curve, own in zip(curves, marks, strict=True):
-        pieces += _pieces(curve, own, nodes, reach)
+    for each, own in zip(curves, marks, strict=True):
+        pieces += _pieces(each, own, nodes, reach)
     pieces = _without_doubles(pieces, 0.1 * reach)
     pieces, stubs = _without_stubs(pieces, reach)
     return Planar(nodes.places(), pieces, stubs)
@@ -111,15 +112,21 @@ def _pieces(curve: Curve, marks: list[tuple[float, FloatArray]], nodes: _Nodes, 
     # Close marks are one: an end that touches a crossing, a corner that another stroke meets.
     ordered = sorted(((at % count if curve.closed else at, nodes.find(place)) for at, place in marks))
     kept = [
-        mark for k, mark in enumerate(ordered) if k == 0 or mark[1] != ordered[k - 1][1] or _far(curve, ordered[k - 1][0], mark[0], reach)
+        mark
+        for k, mark in enumerate(ordered)
+        if k == 0 or mark[1] != ordered[k - 1][1] or _far(curve, ordered[k - 1][0], mark[0], reach)
     ]
     if curve.closed:
-        if len(kept) > 1 and kept[0][1] == kept[-1][1] and not _far(curve, kept[-1][0], kept[0][0] + count, reach):
+        if (
+            len(kept) > 1
+            and kept[0][1] == kept[-1][1]
+            and not _far(curve, kept[-1][0], kept[0][0] + count, reach)
+        ):
             kept.pop()
         kept.append((kept[0][0] + count, kept[0][1]))
     places = nodes.places()
     pieces = []
-    for (start, first), (end, last) in zip(kept[:-1], kept[1:], strict=True):
+    for (start, first), (end, last) in itertools.pairwise(kept):
         cubics = _stretch(curve, start, end)
         if cubics is None:
             continue
@@ -206,11 +213,12 @@ def _without_stubs(pieces: list[Piece], reach: float) -> tuple[list[Piece], list
         for piece in pieces:
             free = (degree[piece.start] == 1) != (degree[piece.end] == 1)
             nothing = piece.start == piece.end and piece.curve.length < 0.1 * reach
-            if nothing or (free and piece.curve.length < reach and max(degree[piece.start], degree[piece.end]) > 2):
+            if nothing or (
+                free and piece.curve.length < reach and max(degree[piece.start], degree[piece.end]) > 2
+            ):
                 stubs.append((piece.curve.start, piece.curve.length))
             else:
                 rest.append(piece)
         if len(rest) == len(pieces):
             return pieces, stubs
         pieces = rest
-

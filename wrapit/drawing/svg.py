@@ -103,7 +103,9 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
         found = _curves(shape, path)
         curves += found
         if stroked and shape.stroke_width:
-            scale = math.sqrt(abs(shape.transform.a * shape.transform.d - shape.transform.b * shape.transform.c))
+            scale = math.sqrt(
+                abs(shape.transform.a * shape.transform.d - shape.transform.b * shape.transform.c)
+            )
             width = float(shape.implicit_stroke_width or shape.stroke_width * scale)
             widths += [width] * len(found)
     if not curves:
@@ -125,7 +127,9 @@ def _safe_text(path: Path) -> str:
             raise DrawingError("the SVG file is larger than 50 MB", str(path), "simplify it")
         text = path.read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise DrawingError(f"the SVG file can't be read ({error})", str(path), "save it as plain SVG") from None
+        raise DrawingError(
+            f"the SVG file can't be read ({error})", str(path), "save it as plain SVG"
+        ) from None
     plain = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
     if re.search(r"<!ENTITY|<!DOCTYPE[^>]*\[", plain, re.IGNORECASE):
         raise DrawingError(
@@ -162,7 +166,15 @@ def _parsed(text: str, path: Path) -> Any:
             f"{path}:{line}:{column + 1}",
             "it may be cut off; save it again",
         ) from None
-    except (ValueError, TypeError, AttributeError, IndexError, KeyError, ZeroDivisionError, RecursionError) as error:
+    except (
+        ValueError,
+        TypeError,
+        AttributeError,
+        IndexError,
+        KeyError,
+        ZeroDivisionError,
+        RecursionError,
+    ) as error:
         raise DrawingError(
             f"the SVG file can't be understood ({type(error).__name__}: {error})",
             str(path),
@@ -174,7 +186,9 @@ def _numbers(text: str) -> str:
     """Everything that should hold numbers: path data, points and geometry attributes."""
     return " ".join(
         value
-        for _, value in re.findall(r"\s(d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height)\s*=\s*[\"']([^\"']*)", text)
+        for _, value in re.findall(
+            r"\s(d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height)\s*=\s*[\"']([^\"']*)", text
+        )
     )
 
 
@@ -187,7 +201,9 @@ def _shapes(root: Any) -> list[Any]:
             continue
         values = element.values
         style = str(values.get("style", ""))
-        hidden = values.get("visibility") in ("hidden", "collapse") or "visibility:hidden" in style.replace(" ", "")
+        hidden = values.get("visibility") in ("hidden", "collapse") or "visibility:hidden" in style.replace(
+            " ", ""
+        )
         gone = values.get("display") == "none" or "display:none" in style.replace(" ", "")
         clear = _is_zero(values.get("opacity")) or (_is_zero(values.get("stroke-opacity")))
         if not (hidden or gone or clear):
@@ -226,7 +242,9 @@ def _curves(shape: Any, path: Path) -> list[Curve]:
 
     def finish(closed: bool) -> None:
         if cubics:
-            curves.append(Curve(_chained(cubics), closed or bool(np.allclose(cubics[0][0], cubics[-1][3], atol=1e-9))))
+            curves.append(
+                Curve(_chained(cubics), closed or bool(np.allclose(cubics[0][0], cubics[-1][3], atol=1e-9)))
+            )
             cubics.clear()
 
     for part in SvgPath(shape):
@@ -263,7 +281,9 @@ def _line(start: Any, end: Any) -> FloatArray:
 
 
 def _control(part: Any) -> FloatArray:
-    return np.array([[p.x, p.y] for p in (part.start, part.control1, part.control2, part.end)], dtype=np.float64)
+    return np.array(
+        [[p.x, p.y] for p in (part.start, part.control1, part.control2, part.end)], dtype=np.float64
+    )
 
 
 def _chained(cubics: list[FloatArray]) -> FloatArray:
