@@ -180,17 +180,14 @@ def spiral(pitch_mm: float = 6.0, turns: float = 3.0) -> tuple[Wire, ...]:
     return solution_of(drawing_of([BezierChain(cubics)]), [[(0, False)]])[1]
 
 
-def sixteen() -> tuple[Wire, ...]:
-    """Sixteen wavy wires, eight across eight."""
+def woven(count: int) -> tuple[Wire, ...]:
+    """Wavy wires, `count` across as many."""
     curves = []
-    for index in range(8):
+    for index in range(count):
         for upright in (False, True):
-            y = 9.0 * index
-            waves = [
-                arc_chain((6.0 + 12 * k, y), 6.0, math.pi, -math.pi if k % 2 else math.pi) for k in range(6)
-            ]
-            points = np.concatenate([wave.points for wave in waves]).copy()
+            y, waves = 9.0 * index, range(max(2, 3 * count // 4))
+            arcs = [arc_chain((6.0 + 12 * k, y), 6.0, math.pi, -math.pi if k % 2 else math.pi) for k in waves]
+            points = np.concatenate([arc.points for arc in arcs]).copy()
             points[1:, 0] = points[:-1, 3]
-            chain = BezierChain(points[..., ::-1] if upright else points)
-            curves.append(chain)
-    return solution_of(drawing_of(curves), [[(index, False)] for index in range(16)])[1]
+            curves.append(BezierChain(points[..., ::-1] if upright else points))
+    return solution_of(drawing_of(curves), [[(index, False)] for index in range(2 * count)])[1]
