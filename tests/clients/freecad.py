@@ -11,9 +11,9 @@ from typing import Any
 SCRIPT = Path(__file__).with_name("freecad_tree.py")
 
 
-def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[str, list[dict[str, Any]]]:
-    """For each file the objects that FreeCAD shows: label, volume, colour, curves."""
-    seen = scratch / "seen.json"
+def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[str, dict[str, Any]]:
+    """For each file the features that FreeCAD shows (label, volume, colour, curves) and the groups."""
+    seen, error = scratch / "seen.json", scratch / "seen.json.error"
     environment = {
         **os.environ,
         "STEP_FILES": os.pathsep.join(map(str, files)),
@@ -22,6 +22,6 @@ def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[
         "HOME": str(scratch),
     }
     command = [xvfb_run, "-a", freecad, str(SCRIPT)]
-    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=300, check=False)
-    assert seen.is_file(), run.stdout + run.stderr
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=180, check=False)
+    assert seen.is_file(), error.read_text() if error.is_file() else run.stdout + run.stderr
     return json.loads(seen.read_text())

@@ -2,35 +2,41 @@
 
 import json
 import os
+import traceback
 from pathlib import Path
 
 import FreeCAD as App
 import ImportGui
 
-preferences = App.ParamGet("User parameter:BaseApp/Preferences/Mod/Import")
-preferences.SetBool("ReadShapeCompoundMode", False)
-preferences.SetInt("ImportMode", 0)
-seen = {}
-for path in os.environ["STEP_FILES"].split(os.pathsep):
+
+def seen(thing):
+    solids = thing.Shape.Solids
+    return {
+        "label": thing.Label,
+        "volume": sum(solid.Volume for solid in solids),
+        "solids": len(solids),
+        "valid": thing.Shape.isValid(),
+        "curves": [] if solids else sorted({edge.Curve.TypeId for edge in thing.Shape.Edges}),
+        "length": 0.0 if solids else sum(edge.Length for edge in thing.Shape.Edges),
+        "colour": list(thing.ViewObject.ShapeColor[:3]),
+    }
+
+
+def opened(path):
     document = App.newDocument()
     ImportGui.insert(path, document.Name)
-    seen[Path(path).name] = [
-        {
-            "label": thing.Label,
-            "type": thing.TypeId,
-            "volume": sum(solid.Volume for solid in thing.Shape.Solids),
-            "solids": len(thing.Shape.Solids),
-            "valid": thing.Shape.isValid(),
-            "free_curves": sorted({e.Curve.TypeId for e in thing.Shape.Edges})
-            if not thing.Shape.Solids
-            else [],
-            "length": sum(e.Length for e in thing.Shape.Edges) if not thing.Shape.Solids else 0.0,
-            "colour": [round(c, 4) for c in thing.ViewObject.ShapeColor[:3]]
-            if not thing.Shape.isNull()
-            else [],
-        }
-        for thing in document.Objects
-        if hasattr(thing, "Shape")
-    ]
-Path(os.environ["SEEN_JSON"]).write_text(json.dumps(seen))
+    features = [seen(thing) for thing in document.Objects if thing.TypeId == "Part::Feature"]
+    groups = [thing.Label for thing in document.Objects if thing.TypeId in ("App::LinkGroup", "App::Part")]
+    return {"features": features, "groups": groups}
+
+
+try:
+    # The preference "Enable STEP Compound merge", off: otherwise an assembly arrives as one object.
+    App.ParamGet("User parameter:BaseApp/Preferences/Mod/Import/hSTEP").SetBool(
+        "ReadShapeCompoundMode", False
+    )
+    answer = {Path(path).name: opened(path) for path in os.environ["STEP_FILES"].split(os.pathsep)}
+    Path(os.environ["SEEN_JSON"]).write_text(json.dumps(answer))
+except BaseException:
+    Path(os.environ["SEEN_JSON"] + ".error").write_text(traceback.format_exc())
 os._exit(0)

@@ -39,31 +39,27 @@ def wire_colours(build: Build) -> dict[str, list[float]]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_freecad_finds_names_colours_volumes(
-    piece: Piece, program: Program, tmp_path: Path, name: str
-) -> None:
+def test_freecad_finds_names_and_volumes(piece: Piece, program: Program, tmp_path: Path, name: str) -> None:
     xvfb, gui = program("xvfb-run"), program("freecad")
     build = piece(name)
-    jig, wires = (files(build, f"{stem}.step")[0] for stem in ("jig", "wires"))
-    seen = freecad.tree(xvfb, gui, [jig, wires], tmp_path)
+    files_step = [files(build, f"{stem}.step")[0] for stem in ("jig", "wires")]
+    jig, wires = freecad.tree(xvfb, gui, files_step, tmp_path).values()
 
-    bodies = [thing for thing in seen["jig.step"] if thing["solids"]]
-    assert (
-        sum(thing["solids"] for thing in bodies if thing["type"] == "Part::Feature")
-        == build.report["jig"]["solids"]
-    )
-    volume = sum(thing["volume"] for thing in bodies if thing["type"] == "Part::Feature")
-    assert volume == pytest.approx(build.report["jig"]["volume_mm3"], rel=1e-4)
-    assert all(thing["valid"] for thing in bodies)
+    assert all(feature["valid"] for feature in jig["features"] + wires["features"])
+    assert sum(feature["solids"] for feature in jig["features"]) == build.report["jig"]["solids"]
+    volume = sum(feature["volume"] for feature in jig["features"])
+    assert volume == pytest.approx(build.report["jig"]["volume_mm3"], rel=1e-6)
 
+    assert wires["groups"] in ([name], [])
+    found = {feature["label"]: feature for feature in wires["features"]}
+    expected = {wire["name"] for wire in build.report["wires"]}
+    assert set(found) == expected | {f"{name} centreline" for name in expected}
     for wire in build.report["wires"]:
-        things = [thing for thing in seen["wires.step"] if thing["label"].startswith(wire["name"])]
-        solids = [thing for thing in things if thing["solids"] and thing["type"] == "Part::Feature"]
-        assert solids, seen["wires.step"]
-        for thing in solids:
-            assert thing["colour"] == pytest.approx(wire_colours(build)[wire["name"]], abs=0.01)
-        curves = {curve for thing in things for curve in thing["free_curves"]}
-        assert curves == {"Part::GeomBSplineCurve"}
+        solid, centreline = found[wire["name"]], found[f"{wire['name']} centreline"]
+        assert solid["solids"] == 1
+        assert solid["colour"] == pytest.approx(wire_colours(build)[wire["name"]], abs=1e-3)
+        assert centreline["curves"] == ["Part::GeomBSplineCurve"]
+        assert wire["length_mm"] - 1e-3 <= centreline["length"] <= 1.1 * wire["length_mm"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -83,7 +79,9 @@ def test_slicer_needs_no_repairs(piece: Piece, program: Program, tmp_path: Path,
 def test_stl_is_watertight(piece: Piece, program: Program, name: str) -> None:
     admesh = program("admesh")
     for model in files(piece(name), "jig*.stl"):
-        said = subprocess.run([admesh, "-c", str(model)], capture_output=True, text=True, check=True).stdout
+        said = subprocess.run(
+            [admesh, "--exact", str(model)], capture_output=True, text=True, check=True
+        ).stdout
         for fault in ("Total disconnected facets", "Backwards edges", "Degenerate facets", "Normals fixed"):
             numbers = re.search(rf"{fault}\s*:\s*(\d+)(?:\s+(\d+))?", said)
             assert numbers, said

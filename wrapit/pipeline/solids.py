@@ -36,8 +36,8 @@ def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) 
     from wrapit.kernel.files import write_3mf, write_step, write_stl
 
     if "step" in config.outputs:
-        write_step(folder / "wires.step", f"{config.name} wires", [_wire_part(wire) for wire in wires])
-        write_step(folder / "jig.step", f"{config.name} jig", [_jig_part(jig) for jig in jigs.jigs])
+        write_step(folder / "wires.step", config.name, [_wire_part(wire) for wire in wires])
+        write_step(folder / "jig.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
     for jig in jigs.jigs:
         stem = jig.name if len(jigs.jigs) > 1 else "jig"
         if "stl" in config.outputs:
