@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 from wrapit.decomposition.certificate import ring_of
 from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.graph import Graph
+from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Problem
 from wrapit.decomposition.rules import Pair, in_use, wire_through
-from wrapit.decomposition.trails import trails_of
+from wrapit.decomposition.trails import trails_of, walk
 
 Weak = tuple[tuple[int, ...], int]
 
@@ -85,6 +86,29 @@ def rule_cuts(problem: Problem, mate: Sequence[int]) -> Iterator[Cut]:
             yield Cut(dict.fromkeys(across, -1.0), -1.0)
     if rules.longest_mm is not None:
         yield from _length_cuts(graph, mate, rules.longest_mm)
+
+
+def exclusion_cut(graph: Graph, mate: Sequence[int]) -> Cut:
+    """That a matching isn't this one, wherever its closed wires are left open.
+
+    With its closed wires closed, any other matching has one transition less in common with it than
+    it has itself, or some transition besides.
+    """
+    closed = {(a, b) for a, b in enumerate(mate) if a < b}
+    wires = 0
+    for h, other in enumerate(mate):
+        if other == NO_MATE:
+            far = walk(mate, h)[-1] ^ 1
+            if h < far and far in graph.bends_rad[h] and in_use(graph, mate, h >> 1):
+                closed.add((h, far))
+                wires += 1
+    transitions = {
+        (a, b): 1.0 if (a, b) in closed else -1.0
+        for a, mates in enumerate(graph.bends_rad)
+        for b in mates
+        if a < b
+    }
+    return Cut(transitions, len(closed) - wires - 1.0)
 
 
 def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterator[Cut]:

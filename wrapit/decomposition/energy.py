@@ -10,12 +10,20 @@ from collections.abc import Sequence
 
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import Energy, Trail, Traversal, Weights
+from wrapit.decomposition.symmetry import asymmetry
 from wrapit.decomposition.trails import trails_of
 
 
-def energy_of(graph: Graph, mate: Sequence[int], weights: Weights) -> Energy:
-    """The energy (paper, equations 1 to 4) of a matching. Raises ValueError where it is none."""
-    trails = trails_of(graph, mate)
+def energy_of(graph: Graph, mate: Sequence[int], weights: Weights, mirror: Sequence[int] = ()) -> Energy:
+    """The energy of a matching. Raises ValueError where it is none.
+
+    `mirror` gives the mirror image of each half-edge, for the weight of symmetry.
+    """
+    return energy_of_trails(graph, trails_of(graph, mate), weights, asymmetry(graph, mirror, mate))
+
+
+def energy_of_trails(graph: Graph, trails: Sequence[Trail], weights: Weights, asymmetric: int = 0) -> Energy:
+    """The energy (paper, equations 1 to 4) of trails; they may run along a segment twice."""
     complexity = len(trails)
     smoothness = math.fsum(bend for trail in trails for bend in bends_of(graph, trail))
     robustness = len(weak_trails(graph, trails))
@@ -25,8 +33,9 @@ def energy_of(graph: Graph, mate: Sequence[int], weights: Weights) -> Energy:
         + weights.smoothness * smoothness
         + weights.robustness * robustness
         + weights.bridges * bridges
+        + weights.symmetry * asymmetric
     )
-    return Energy(complexity, smoothness, robustness, bridges, total)
+    return Energy(complexity, smoothness, robustness, bridges, total, asymmetric)
 
 
 def bends_of(graph: Graph, trail: Trail) -> list[float]:

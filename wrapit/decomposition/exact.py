@@ -12,30 +12,24 @@ from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.pendants import Pendants
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.trails import trails_of
-from wrapit.errors import DecompositionError
 
 _CLOSE = 1e-9
 
 
-def solve_exactly(problem: Problem, budget: int) -> Answer:
-    """The best matching of one connected piece, with the bound that proves it.
+def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]] = ()) -> Answer | None:
+    """The best matching of one connected piece that differs from `others`, with the bound that proves it.
 
-    `budget` limits the work of integer programming, which starts where local reasoning ends. Raises
-    DecompositionError where the rules can't be met.
+    None where the rules can't be met, or where there is no other. `budget` limits the work of integer
+    programming, which starts where local reasoning ends.
     """
     known = certified(problem)
     gap = problem.energy(known.mate).total - (known.lower_bound or 0.0)
-    if gap < _CLOSE and problem.is_allowed(known.mate):
+    if gap < _CLOSE and problem.is_allowed(known.mate) and not others:
         return known
     # Loads scipy's optimisers, which takes longer than most drawings.
     from wrapit.decomposition.milp import solve_by_cuts
 
-    answer = solve_by_cuts(problem, known, budget)
-    if answer is None:
-        raise DecompositionError(
-            "no wires can be as the constraints ask", remedy="drop one of the constraints"
-        )
-    return answer
+    return solve_by_cuts(problem, known, budget, others)
 
 
 def certified(problem: Problem) -> Answer:

@@ -7,7 +7,15 @@ from dataclasses import asdict
 from typing import Any
 
 from wrapit.decomposition.model import Solution
-from wrapit.decomposition.stage import wire_name
+
+
+def wire_name(index: int) -> str:
+    """Name of the wire that trail `index` becomes.
+
+    >>> wire_name(0)
+    'wire-01'
+    """
+    return f"wire-{index + 1:02d}"
 
 
 def decomposition_json(solution: Solution) -> str:
@@ -32,16 +40,24 @@ def decomposition_json(solution: Solution) -> str:
 
 
 def decomposition_summary(solution: Solution) -> dict[str, Any]:
-    """Everything in `decomposition.json` but the wires, as `report.json` repeats it."""
+    """Everything in `decomposition.json` but the wires, as `report.json` repeats it.
+
+    Symmetry appears among the weights and energies only where it was asked for.
+    """
+    symmetric = solution.weights.symmetry > 0
     return {
         "format": "wrapit-decomposition/1",
         "solver": solution.solver,
         "seed": solution.seed,
-        "energy": asdict(solution.energy),
-        "weights": asdict(solution.weights),
+        "energy": _without(asdict(solution.energy), "asymmetry", keep=symmetric),
+        "weights": _without(asdict(solution.weights), "symmetry", keep=symmetric),
         "lower_bound": solution.lower_bound,
         "optimal": solution.optimal,
         "bridges_used": list(solution.bridges_used),
         "doubled": list(solution.doubled),
         "iterations": solution.iterations,
     }
+
+
+def _without(terms: dict[str, Any], key: str, *, keep: bool) -> dict[str, Any]:
+    return {name: value for name, value in terms.items() if keep or name != key}

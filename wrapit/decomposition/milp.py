@@ -10,26 +10,30 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from wrapit.decomposition.certificate import open_rings, ring_of
-from wrapit.decomposition.cuts import Cut, ring_cuts, rule_cuts, weak_cuts
+from wrapit.decomposition.cuts import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
 from wrapit.decomposition.integer import Name, Optimum, Programme
 from wrapit.decomposition.local import LocalCosts
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.moves import descended
 from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.symmetry import mirrored_junctions
 
 _CLOSE = 1e-9
 _ALL_TRIPLES_DEGREE = 10
 
 
-def solve_by_cuts(problem: Problem, known: Answer, budget: int) -> Answer | None:
-    """The best matching, starting from what is known; None where the rules can't be met.
+def solve_by_cuts(
+    problem: Problem, known: Answer, budget: int, others: Sequence[Sequence[int]] = ()
+) -> Answer | None:
+    """The best matching that differs from `others`, starting from what is known; None if there is none.
 
     `budget` limits the work, counted as columns × nodes of branch and bound over all rounds, so that
     the answer depends on nothing but the problem. Beyond it, the best matching so far is returned
     with the bound that was proved.
     """
-    model = _Model(problem)
-    best = known.mate if problem.is_allowed(known.mate) else None
+    excluded = [exclusion_cut(problem.graph, mate) for mate in others]
+    model = _Model(problem, excluded)
+    best = known.mate if _fits(problem, known.mate, excluded) else None
     least = problem.energy(best).total if best else float("inf")
     bound, rounds, spent = known.lower_bound or 0.0, known.iterations, 0
     while least - bound > _CLOSE and spent < budget:
@@ -45,6 +49,8 @@ def solve_by_cuts(problem: Problem, known: Answer, budget: int) -> Answer | None
             break
         mate = model.matching(optimum)
         for candidate in _repaired(problem, mate):
+            if not _fits(problem, candidate, excluded):
+                continue
             energy = problem.energy(candidate).total
             if energy < least - _CLOSE:
                 best, least = tuple(candidate), energy
@@ -58,18 +64,27 @@ def solve_by_cuts(problem: Problem, known: Answer, budget: int) -> Answer | None
 def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:
     repaired = list(mate)
     open_rings(problem.graph, LocalCosts(problem), repaired)
-    improved = descended(problem, repaired)
-    return (candidate for candidate in (repaired, improved) if problem.is_allowed(candidate))
+    yield repaired
+    yield descended(problem, repaired)
+
+
+def _fits(problem: Problem, mate: Sequence[int], excluded: Sequence[Cut]) -> bool:
+    if not problem.is_allowed(mate):
+        return False
+    return all(
+        sum(cut.transitions.get((a, b), 0.0) for a, b in enumerate(mate) if a < b) <= cut.limit + 1e-9
+        for cut in excluded
+    )
 
 
 class _Model:
     """The inequalities so far, and the junctions that they are about."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, excluded: Sequence[Cut]) -> None:
         self._problem = problem
         self._graph = problem.graph
         self._costs = LocalCosts(problem)
-        self._cuts: list[Cut] = []
+        self._cuts = list(excluded)
         self._paid: set[tuple[tuple[int, ...], int, int | None]] = set()
         self._active = self._ruled_junctions()
 
@@ -149,11 +164,13 @@ class _Model:
         graph, rules, pair = self._graph, self._problem.rules, self._costs.pair
         for group in rules.required:
             programme.add_row(dict.fromkeys(group, 1.0), low=1.0)
-        for junction in sorted(rules.ends_at):
-            ends = graph.incident[junction]
+        for ends in rules.ends:
             row: dict[Name, float] = {(a, b): 2.0 for a in ends for b in pair[a] if a < b}
             row |= {("bridge", h >> 1): -1.0 for h in ends if h >> 1 in graph.bridges}
             programme.add_row(row, high=sum(h >> 1 not in graph.bridges for h in ends) - 1.0)
+        for v, _ in mirrored_junctions(graph, self._problem.mirror):
+            programme.add_column(("unlike", v), self._problem.weights.symmetry, whole=False)
+            self._add_likeness(programme, v)
         for e, f in rules.apart:
             # A height for each segment, the same along a wire: 0 on one of the two, 1 on the other.
             for segment in range(graph.segments):
@@ -166,10 +183,21 @@ class _Model:
                     step[min(a, b), max(a, b)] = step.pop((a, b))
                     programme.add_row(step, high=1.0)
 
+    def _add_likeness(self, programme: Programme, junction: int) -> None:
+        mirror = self._problem.mirror
+        for a in self._graph.incident[junction]:
+            for b in self._costs.pair[a]:
+                image = (min(mirror[a], mirror[b]), max(mirror[a], mirror[b]))
+                if a < b and image != (a, b):
+                    for sign in (1.0, -1.0):
+                        programme.add_row({(a, b): sign, image: -sign, ("unlike", junction): -1.0}, high=0.0)
+
     def _ruled_junctions(self) -> set[int]:
         graph, rules = self._graph, self._problem.rules
-        if rules.apart:
+        if rules.apart or self._cuts:
             return set(range(len(graph.incident)))
         bridged = {graph.junction_of[h] for e in graph.bridges for h in (2 * e, 2 * e + 1)}
+        ended = {graph.junction_of[ends[0]] for ends in rules.ends}
         required = {graph.junction_of[a] for group in rules.required for a, _ in group}
-        return bridged | required | set(rules.ends_at)
+        mirrored = {j for pair in mirrored_junctions(graph, self._problem.mirror) for j in pair}
+        return mirrored | bridged | required | ended

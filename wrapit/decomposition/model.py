@@ -52,22 +52,30 @@ class Decomposition:
 
 @dataclass(frozen=True)
 class Weights:
-    """The weights of the energy; `E = N + λs·bends + λr·weak wires + λb·bridges` (paper, eq. 1 to 4)."""
+    """The weights of the energy.
+
+    `E = N + λs·bends + λr·weak wires + λb·bridges` (paper, equations 1 to 4) `+ λm·asymmetry`.
+    """
 
     smoothness: float = 0.1
     robustness: float = 0.9
     bridges: float = 0.1
+    symmetry: float = 0.0
 
 
 @dataclass(frozen=True)
 class Energy:
-    """The terms of the energy, unweighted, and the weighted total."""
+    """The terms of the energy, unweighted, and the weighted total.
+
+    `asymmetry` counts mirrored junctions that are treated unlike one another, where asked for.
+    """
 
     complexity: int
     smoothness_rad: float
     robustness: int
     bridges: int
     total: float
+    asymmetry: int = 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from wrapit.decomposition.branches import smallest_branches
-from wrapit.decomposition.energy import energy_of
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.rules import NO_RULES, broken
+from wrapit.decomposition.symmetry import is_unlike, mirrored_junctions
+
+_PENALTY = 20.0
 
 
 def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
@@ -26,21 +29,32 @@ def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
 class Wires:
     """Wires that grow and shrink, starting with one per stroke and no bridge unless `mate` says otherwise.
 
-    `mate` is always a valid matching without rings; `energy` follows it.
+    `mate` is always a valid matching without rings; `energy` follows it. Rules that it breaks add to
+    the energy, each more than any move can save; forbidden transitions are never made.
     """
 
     def __init__(self, problem: Problem, mate: Sequence[int] | None = None) -> None:
         graph, weights = problem.graph, problem.weights
         self.mate = list(mate) if mate is not None else [NO_MATE] * (2 * graph.segments)
-        start = energy_of(graph, self.mate, weights)
-        self.energy, self._weak = start.total, start.robustness
+        start = problem.energy(self.mate)
+        self._problem = problem
+        self._ruled = problem.rules != NO_RULES or bool(problem.mirror)
+        self._mirrored = [graph.incident[v] for v, _ in mirrored_junctions(graph, problem.mirror)]
+        self._extra = self._extra_cost()
+        self._weak = start.robustness
+        self.energy = start.total + self._extra - weights.symmetry * start.asymmetry
         self.bridges = sorted(graph.bridges)
         self._graph = graph
         self._weak_cost = weights.robustness
         self._bridge_cost = 1.0 + weights.bridges
         # What a transition saves: one wire, less its bend.
         self._saved = [
-            {b: 1.0 - weights.smoothness * bend for b, bend in bends.items()} for bends in graph.bends_rad
+            {
+                b: 1.0 - weights.smoothness * bend
+                for b, bend in bends.items()
+                if (min(a, b), max(a, b)) not in problem.rules.forbidden
+            }
+            for a, bends in enumerate(graph.bends_rad)
         ]
         self.partners = [list(saved) for saved in self._saved]
         self._smallest = smallest_branches(graph)
@@ -100,13 +114,13 @@ class Wires:
         if bridges and (near := {h >> 1 for h in touched} & bridges):
             toggled = sorted(near)
             delta -= self._bridge_cost * sum(self._in_use(e) for e in toggled)
-        elif delta - self._weak_cost * min(2, self._weak) > budget:
+        elif delta - self._weak_cost * min(2, self._weak) - self._extra > budget:
             return False
         if toggled:
             # A bridge that comes into use touches wires that the move itself leaves alone.
             touched = self._around(touched, toggled)
         weak_before = self._weak_wires(touched) if fragile else 0
-        if not toggled and delta - self._weak_cost * weak_before > budget:
+        if not toggled and delta - self._weak_cost * weak_before - self._extra > budget:
             return False
         before = [(h, mate[h]) for h, _ in changes]
         for h, other in changes:
@@ -116,14 +130,22 @@ class Wires:
         if not self._closes_ring(changes):
             mended = weak_before - (self._weak_wires(touched) if fragile else 0)
             delta -= self._weak_cost * mended
+            extra = self._extra_cost() if self._ruled else 0.0
+            delta += extra - self._extra
             if delta <= budget:
                 self.energy += delta
                 self._weak -= mended
+                self._extra = extra
                 self._closing.clear()
                 return True
         for h, other in before:
             mate[h] = other
         return False
+
+    def _extra_cost(self) -> float:
+        problem = self._problem
+        unlike = sum(is_unlike(ends, problem.mirror, self.mate) for ends in self._mirrored)
+        return _PENALTY * broken(problem.graph, problem.rules, self.mate) + problem.weights.symmetry * unlike
 
     def _in_use(self, bridge: int) -> bool:
         return self.mate[2 * bridge] != NO_MATE or self.mate[2 * bridge + 1] != NO_MATE

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from wrapit.decomposition.graph import Graph
@@ -15,17 +15,39 @@ Pair = tuple[int, int]
 class Rules:
     """Conditions on a matching; pairs are sorted half-edges.
 
-    `forbidden` transitions never happen; of each group in `required` one does; `ends_at` junctions
-    have a wire end; `same` segments lie on one wire, `apart` segments on two; no wire is longer than
-    `longest_mm`.
+    `forbidden` transitions never happen; of each group in `required` one does; at one of each group
+    of half-edges in `ends` a wire ends; `same` segments lie on one wire, `apart` segments on two; no
+    wire is longer than `longest_mm`.
     """
 
     forbidden: frozenset[Pair] = frozenset()
     required: tuple[tuple[Pair, ...], ...] = ()
-    ends_at: frozenset[int] = frozenset()
+    ends: tuple[tuple[int, ...], ...] = ()
     same: tuple[Pair, ...] = ()
     apart: tuple[Pair, ...] = ()
     longest_mm: float | None = None
+
+    def renumbered(self, number: Mapping[int, int]) -> Rules:
+        """The rules about the half-edges that have a new number."""
+
+        def pairs(group: Iterable[Pair]) -> Iterator[Pair]:
+            return ((number[a], number[b]) for a, b in group if a in number and b in number)
+
+        def segments(group: Iterable[Pair]) -> Iterator[Pair]:
+            return ((a // 2, b // 2) for a, b in pairs((2 * e, 2 * f) for e, f in group))
+
+        return Rules(
+            forbidden=frozenset(pairs(self.forbidden)),
+            required=tuple(group for group in (tuple(pairs(group)) for group in self.required) if group),
+            ends=tuple(
+                group
+                for group in (tuple(number[h] for h in ends if h in number) for ends in self.ends)
+                if group
+            ),
+            same=tuple(segments(self.same)),
+            apart=tuple(segments(self.apart)),
+            longest_mm=self.longest_mm,
+        )
 
 
 NO_RULES = Rules()
@@ -37,8 +59,8 @@ def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
         return 0
     count = sum(mate[a] == b for a, b in rules.forbidden)
     count += sum(all(mate[a] != b for a, b in group) for group in rules.required)
-    for junction in rules.ends_at:
-        count += not any(mate[h] == NO_MATE and in_use(graph, mate, h >> 1) for h in graph.incident[junction])
+    for ends in rules.ends:
+        count += not any(mate[h] == NO_MATE and in_use(graph, mate, h >> 1) for h in ends)
     count += sum(f not in wire_through(mate, e) for e, f in rules.same)
     count += sum(f in wire_through(mate, e) for e, f in rules.apart)
     if rules.longest_mm is not None:

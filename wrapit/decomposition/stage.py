@@ -2,87 +2,121 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from wrapit.config.decomposition import DecompositionConfig
+from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig
 from wrapit.decomposition.annealing import anneal
-from wrapit.decomposition.energy import weak_trails
+from wrapit.decomposition.bridges import with_bridges
+from wrapit.decomposition.constraints import rules_of
+from wrapit.decomposition.energy import energy_of_trails
 from wrapit.decomposition.exact import certified, solve_exactly
-from wrapit.decomposition.graph import Graph, fewest_possible_wires, graph_of, pieces
-from wrapit.decomposition.model import NO_MATE, Decomposition, Solution, Weights
+from wrapit.decomposition.findings import findings_of
+from wrapit.decomposition.graph import Graph, graph_of
+from wrapit.decomposition.model import Decomposition, Solution, SolverName, Weights
+from wrapit.decomposition.piecewise import best_answers, parts_of, solve_piecewise
 from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.refinement import doubled_back
+from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DecompositionError, Finding
 
 _CLOSE = 1e-9
 
-Solver = Callable[[Problem, DecompositionConfig, np.random.Generator], Answer]
+Solver = Callable[[Problem, DecompositionConfig, np.random.Generator], Answer | None]
 
 
 def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
     """The best wires that the chosen solver finds for a drawing (paper, section 4).
 
     A drawing in several pieces is decomposed piece by piece: robustness, and its exemption for a
-    single wire, are those of each piece. Trails are named in wire order, longest first. Raises
-    DecompositionError for a drawing without segments.
+    single wire, are those of each piece. Trails come in wire order, longest first. With
+    `config.bridges` the solution's drawing has the bridges on offer appended to its segments.
+
+    Raises DecompositionError for a drawing without segments and for constraints that can't be met
+    together; ConfigError for a constraint that names what the drawing doesn't have.
     """
-    if not drawing.segments:
+    drawing, problem = _posed(drawing, config)
+    rng = np.random.default_rng(config.seed)
+    answer = solve_piecewise(
+        problem,
+        parts_of(problem, config.bridges),
+        lambda part: SOLVERS[config.solver](part, config, rng),
+    )
+    if answer is None or not problem.is_allowed(answer.mate):
+        raise _refusal(problem, config)
+    solution = _solution(drawing, problem, answer, config, config.solver)
+    return solution, findings_of(problem.graph, solution)
+
+
+def alternatives(drawing: Drawing, config: DecompositionConfig, k: int) -> tuple[Solution, ...]:
+    """The k best different decompositions, best first, always by the exact solver.
+
+    Where a closed wire is left open makes no difference. `optimal` says that no other decomposition
+    but those before is better. Raises as `decompose` does.
+    """
+    drawing, problem = _posed(drawing, config)
+    answers = best_answers(problem, parts_of(problem, config.bridges), config.exact.budget, k)
+    if not answers or not problem.is_allowed(answers[0].mate):
+        raise _refusal(problem, config)
+    return tuple(
+        _solution(drawing, problem, answer, config, "exact")
+        for answer in answers
+        if problem.is_allowed(answer.mate)
+    )
+
+
+def _posed(drawing: Drawing, config: DecompositionConfig) -> tuple[Drawing, Problem]:
+    """The drawing, with bridges if they are asked for, and the problem that it poses."""
+    if not any(segment.kind == "stroke" for segment in drawing.segments):
         raise DecompositionError("the drawing has no lines to make wires of", remedy="draw at least one line")
+    if config.bridges:
+        drawing = with_bridges(drawing)
     graph = graph_of(drawing)
-    problem = Problem(graph, Weights(**config.weights.model_dump()))
-    answer = solve(problem, config)
-    solution = solution_of(drawing, problem, answer, config)
-    return solution, tuple(_findings(graph, solution))
+    return drawing, Problem(
+        graph,
+        Weights(**config.weights.model_dump()),
+        rules_of(graph, config.constraints, config.bridges),
+        mirror_images(drawing, config.mirror) if config.weights.symmetry else (),
+    )
 
 
-def solution_of(drawing: Drawing, problem: Problem, answer: Answer, config: DecompositionConfig) -> Solution:
-    """An answer with its trails and with its energy, evaluated anew."""
-    trails = trails_of(problem.graph, answer.mate)
-    energy = problem.energy(answer.mate)
-    bound = answer.lower_bound
+def _solution(
+    drawing: Drawing, problem: Problem, answer: Answer, config: DecompositionConfig, solver: SolverName
+) -> Solution:
+    """An answer with its trails and with its energy, evaluated anew from them."""
+    graph = problem.graph
+    trails = trails_of(graph, answer.mate)
+    doubled: tuple[int, ...] = ()
+    energy, bound = problem.energy(answer.mate), answer.lower_bound
+    optimal = bound is not None and energy.total - bound < _CLOSE * (1 + energy.total)
+    if config.refine_dangling == "auto":
+        trails, doubled = doubled_back(graph, trails)
+        refined = energy_of_trails(graph, trails, problem.weights, energy.asymmetry)
+        # The bound is about decompositions as they are before any doubling.
+        bound = None if bound is None else bound + refined.total - energy.total
+        energy = refined
     used = {traversal.segment for trail in trails for traversal in trail.traversals}
     return Solution(
         decomposition=Decomposition(drawing, answer.mate),
         trails=trails,
         energy=energy,
         weights=problem.weights,
-        solver=config.solver,
+        solver=solver,
         seed=config.seed,
         iterations=answer.iterations,
         lower_bound=bound,
-        optimal=bound is not None and energy.total - bound < _CLOSE * (1 + energy.total),
-        bridges_used=tuple(sorted(used & problem.graph.bridges)),
+        optimal=optimal,
+        bridges_used=tuple(sorted(used & graph.bridges)),
+        doubled=doubled,
     )
 
 
-def wire_name(index: int) -> str:
-    """Name of the wire that trail `index` becomes.
-
-    >>> wire_name(0)
-    'wire-01'
-    """
-    return f"wire-{index + 1:02d}"
-
-
-def solve(problem: Problem, config: DecompositionConfig) -> Answer:
-    """Each connected piece apart, in the order of their first segments."""
-    rng = np.random.default_rng(config.seed)
-    mate = [NO_MATE] * (2 * problem.graph.segments)
-    iterations, bounds = 0, []
-    for piece in pieces(problem.graph):
-        part = Problem(problem.graph.subgraph(piece), problem.weights)
-        answer = SOLVERS[config.solver](part, config, rng)
-        iterations += answer.iterations
-        bounds.append(answer.lower_bound)
-        half_edges = [h for e in piece for h in (2 * e, 2 * e + 1)]
-        for h, other in zip(half_edges, answer.mate, strict=True):
-            mate[h] = half_edges[other] if other != NO_MATE else NO_MATE
-    known = [bound for bound in bounds if bound is not None]
-    return Answer(tuple(mate), iterations, sum(known) if len(known) == len(bounds) else None)
+def _exact(problem: Problem, config: DecompositionConfig, _: np.random.Generator) -> Answer | None:
+    return solve_exactly(problem, config.exact.budget)
 
 
 def _annealed(problem: Problem, config: DecompositionConfig, rng: np.random.Generator) -> Answer:
@@ -91,56 +125,40 @@ def _annealed(problem: Problem, config: DecompositionConfig, rng: np.random.Gene
     return replace(answer, lower_bound=certified(problem).lower_bound)
 
 
-def _exact(problem: Problem, config: DecompositionConfig, _: np.random.Generator) -> Answer:
-    return solve_exactly(problem, config.exact.budget)
+SOLVERS: dict[SolverName, Solver] = {"exact": _exact, "annealing": _annealed}
 
 
-SOLVERS: dict[str, Solver] = {"exact": _exact, "annealing": _annealed}
+def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionError:
+    """Names the fewest constraints that can't be met together: each of them is needed for that."""
+    kept = list(enumerate(config.constraints))
+    if _can_be_met(problem, config, [constraint for _, constraint in kept]):
+        return DecompositionError(
+            f"the solver {config.solver} found no wires that meet all constraints",
+            "decomposition.constraints",
+            "use solver: exact, or raise decomposition.exact.budget",
+        )
+    for entry in list(kept):
+        fewer = [other for other in kept if other is not entry]
+        if not _can_be_met(problem, config, [constraint for _, constraint in fewer]):
+            kept = fewer
+    named = " and ".join(f"constraints.{index} ({_said(constraint)})" for index, constraint in kept)
+    return DecompositionError(
+        f"no wires can meet {named}" + (" together" if len(kept) > 1 else ""),
+        "decomposition.constraints",
+        "drop or change one of them",
+    )
 
 
-def _findings(graph: Graph, solution: Solution) -> list[Finding]:
-    trails = solution.trails
-    findings = [
-        Finding(
-            "warning",
-            "weak-wire",
-            wire_name(index),
-            f"{wire_name(index)} is tied to the others at one junction only and can swing about it",
-            "extend the line until it meets another one, or bind it twice",
-        )
-        for index in weak_trails(graph, trails)
-    ]
-    strokes = graph.subgraph([e for e in range(graph.segments) if e not in graph.bridges])
-    if len(parts := pieces(strokes)) > 1:
-        findings.append(
-            Finding(
-                "warning",
-                "separate-pieces",
-                "drawing",
-                f"the drawing is in {len(parts)} pieces that no line joins",
-                "join them with a line, or make them as pieces of their own",
-            )
-        )
-    if solution.solver == "exact" and not solution.optimal:
-        gap = solution.energy.total - (solution.lower_bound or 0.0)
-        findings.append(
-            Finding(
-                "warning",
-                "not-proven-best",
-                "decomposition",
-                f"better wires may exist: {solution.energy.total:.4f} is at most {gap:.4f} above the best energy",
-                "raise decomposition.exact.budget",
-            )
-        )
-    fewest = fewest_possible_wires(graph)
-    if len(trails) > fewest:
-        findings.append(
-            Finding(
-                "note",
-                "more-wires-than-needed",
-                "drawing",
-                f"{len(trails)} wires, where {fewest} would do, are what the weights ask for",
-                "lower weights.smoothness and weights.robustness for fewer wires",
-            )
-        )
-    return findings
+def _can_be_met(
+    problem: Problem, config: DecompositionConfig, constraints: Sequence[ConstraintConfig]
+) -> bool:
+    graph: Graph = problem.graph
+    asked = replace(problem, rules=rules_of(graph, constraints, config.bridges))
+    answer = solve_piecewise(
+        asked, parts_of(asked, config.bridges), lambda part: solve_exactly(part, config.exact.budget)
+    )
+    return answer is not None and asked.is_allowed(answer.mate)
+
+
+def _said(constraint: ConstraintConfig) -> str:
+    return ", ".join(f"{key}: {value}" for key, value in constraint.model_dump(exclude_none=True).items())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, Trail, Transition, Traversal
@@ -28,6 +28,11 @@ def trails_of(graph: Graph, mate: Sequence[int]) -> tuple[Trail, ...]:
     covered = {traversal.segment for trail in trails for traversal in trail.traversals}
     if rings := set(range(graph.segments)) - covered - graph.bridges:
         raise ValueError(f"segment {min(rings)} is on a ring; a closed wire is left open somewhere")
+    return in_wire_order(graph, trails)
+
+
+def in_wire_order(graph: Graph, trails: Iterable[Trail]) -> tuple[Trail, ...]:
+    """Trails longest first (in mm), of equal ones the one with the lowest segment first."""
     return tuple(sorted(trails, key=lambda trail: _order(graph, trail)))
 
 

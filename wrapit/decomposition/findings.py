@@ -1,0 +1,96 @@
+"""What the maker should know about a decomposition."""
+
+from __future__ import annotations
+
+from wrapit.decomposition.energy import weak_trails
+from wrapit.decomposition.files import wire_name
+from wrapit.decomposition.graph import Graph, fewest_possible_wires, pieces
+from wrapit.decomposition.model import Solution
+from wrapit.errors import Finding
+
+
+def findings_of(graph: Graph, solution: Solution) -> tuple[Finding, ...]:
+    """Weak wires, doubled ones, separate pieces, answers that are not proven, and more wires than needed."""
+    return (
+        *_weak(graph, solution),
+        *_doubled(solution),
+        *_pieces(graph, solution),
+        *_unproven(solution),
+        *_more_than_needed(graph, solution),
+    )
+
+
+def _weak(graph: Graph, solution: Solution) -> list[Finding]:
+    return [
+        Finding(
+            "warning",
+            "weak-wire",
+            wire_name(index),
+            f"{wire_name(index)} is tied to the others at one junction only and can swing about it",
+            "extend its line until it meets another one, or set decomposition.refine_dangling: auto",
+        )
+        for index in weak_trails(graph, solution.trails)
+    ]
+
+
+def _doubled(solution: Solution) -> list[Finding]:
+    if not solution.doubled:
+        return []
+    segments = ", ".join(map(str, solution.doubled))
+    return [
+        Finding(
+            "note",
+            "doubled-wire",
+            "decomposition",
+            f"hanging lines are doubled back over themselves: segments {segments}",
+            "set decomposition.refine_dangling: never to leave them hanging",
+        )
+    ]
+
+
+def _pieces(graph: Graph, solution: Solution) -> list[Finding]:
+    used = graph.subgraph(
+        [e for e in range(graph.segments) if e not in graph.bridges or e in solution.bridges_used]
+    )
+    count = len(pieces(used))
+    if count == 1:
+        return []
+    return [
+        Finding(
+            "warning",
+            "separate-pieces",
+            "drawing",
+            f"the wires make {count} pieces that nothing joins",
+            "join them with a line, set decomposition.bridges: true, or make them as pieces of their own",
+        )
+    ]
+
+
+def _unproven(solution: Solution) -> list[Finding]:
+    if solution.solver != "exact" or solution.optimal:
+        return []
+    gap = solution.energy.total - (solution.lower_bound or 0.0)
+    return [
+        Finding(
+            "warning",
+            "not-proven-best",
+            "decomposition",
+            f"better wires may exist: the energy {solution.energy.total:.4f} is at most {gap:.4f} too high",
+            "raise decomposition.exact.budget",
+        )
+    ]
+
+
+def _more_than_needed(graph: Graph, solution: Solution) -> list[Finding]:
+    fewest = fewest_possible_wires(graph)
+    if len(solution.trails) <= fewest:
+        return []
+    return [
+        Finding(
+            "note",
+            "more-wires-than-needed",
+            "decomposition",
+            f"{len(solution.trails)} wires, where {fewest} could cover the drawing",
+            "lower weights.smoothness or weights.robustness, or drop constraints, for fewer wires",
+        )
+    ]
