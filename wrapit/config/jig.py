@@ -25,7 +25,18 @@ class JigConfig(Block):
     long_segment: PositiveLength = 20.0
     """Straighter stretches longer than this get a wall too."""
 
+    split: Literal["auto", "single", "per-wire"] = "auto"
+    """One jig for all wires, or several; auto splits where a single jig would hold a wire badly."""
+
+    min_turn_support: float = Field(default=0.6, ge=0, le=1)
+    """Auto splits when a wire would have wall along less than this share of its turns."""
+
+    split_turn_support: float = Field(default=0.9, ge=0, le=1)
+    """Once split, wires share a jig only if each has wall along this share of its turns (or can't alone)."""
+
     wall_thickness: PositiveLength = 3.5
+    """Thickness of the walls, where there is room for it."""
+
     clearance: Length = 0.2
     """Gap between wire and wall on each side."""
 
@@ -35,16 +46,41 @@ class JigConfig(Block):
     min_wall_area: float = Field(default=2.0, ge=0)
     """Smaller walls (mm²) can't be printed and are dropped."""
 
+    min_wall_height: PositiveLength = 4.0
+    """Walls are at least this high; where wires cross they get room for one layer more."""
+
+    lead_in: Length = 0.3
+    """Width and depth of the chamfer along the top of the walls, so that wire is easy to lay in."""
+
     base_thickness: PositiveLength = 3.0
+    """Thickness of the plate."""
+
     margin: Length = 5.0
     """Plate around the walls and wires."""
 
     corner_radius: Length = 3.0
+    """Rounding of the plate's corners."""
+
     min_hole: PositiveLength = 2.0
     """Smallest start hole; thicker wires get their diameter + 0.5 mm."""
 
-    tail_slot: Length = 1.5
+    tail_slot: Length = 0.8
     """Start holes are this much longer in the direction of the wire's tail, so that it can be bent down."""
+
+    pins: bool = True
+    """Holes for pins inside turns that are too tight for a wall."""
+
+    numbers: bool = True
+    """Engrave each wire's number beside the hole where it starts."""
+
+    screw_hole: Length = 0.0
+    """Diameter of a screw hole at each corner of the plate; 0 mm for none."""
+
+    bed_width: PositiveLength = 220.0
+    """Width of the printer's bed."""
+
+    bed_depth: PositiveLength = 220.0
+    """Depth of the printer's bed."""
 
     stl_tolerance: PositiveLength = 0.005
     """Largest distance of the STL's facets from the true surface."""

@@ -44,7 +44,11 @@ class PlateConfig(Block):
     """Thickness of the sheet of the wall pieces; the pocket swallows `sheet` of it."""
 
     sheet_width: PositiveLength = 300.0
+    """Width of the sheets that the laser takes."""
+
     sheet_height: PositiveLength = 200.0
+    """Height of the sheets that the laser takes."""
+
     spacing: PositiveLength = 3.0
     """Distance between parts on the sheet, and from its edge."""
 
