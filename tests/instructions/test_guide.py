@@ -235,3 +235,32 @@ def test_springback_is_told() -> None:
     loss = 3.395 * 300 / (117e3 * 1.02)
     assert f"about {round(90 * loss / 0.1)}° further" in guide.sheets[0].overbend
     assert guide.sheets[1].overbend == ""
+
+
+def test_the_laser_cut_jig_has_its_page() -> None:
+    from types import SimpleNamespace
+
+    from wrapit.config import JigConfig, PlateConfig
+    from wrapit.jig.laser_stage import build_laser_jig
+
+    solution, wires = eye()
+    jigs = SimpleNamespace(jigs=(SimpleNamespace(name="jig", wires=("wire-01", "wire-02")),))
+    laser, _ = build_laser_jig(wires, jigs, JigConfig(), PlateConfig())
+    html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", laser=laser)
+    page = Page(html)
+    ids = {attributes["id"] for _, attributes in page.tags if "id" in attributes}
+    assert {(a["href"] or "")[1:] for tag, a in page.tags if tag == "a"} <= ids
+    section = html.split('<section id="laser">')[1].split("</section>")[0]
+    for part in laser.parts:
+        assert f"<strong>{part.label}</strong>" in section
+    pieces = [part.label for part in laser.parts if part.role in ("wall", "island")]
+    steps = re.findall(r"Glue (?:wall piece|the small plate) <strong>([^<]+)</strong>", section)
+    assert sorted(steps) == sorted(pieces)
+    # A plate that lies inside a ring is glued after the ring.
+    for label, inside in re.findall(
+        r"small plate <strong>([^<]+)</strong>.*?piece <strong>([^<]+)</strong>", section
+    ):
+        assert steps.index(inside) < steps.index(label)
+    assert "6 mm" in section
+    assert "3.0 mm above the plate" in section
+    assert 'id="laser"' not in guide_of()

@@ -16,7 +16,7 @@ from wrapit.drawing.cleanup import (
     tidy,
 )
 from wrapit.drawing.components import Connected, connect
-from wrapit.drawing.corners import split_corners
+from wrapit.drawing.corners import open_tips, split_corners
 from wrapit.drawing.crossings import join_crossings
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
@@ -55,6 +55,7 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     drop_crumbs(net, width_px)
     refuse_loose_strokes(net, str(path))
     lines = centre_lines(net, ink, width_px)
+    open_tips(net, lines, width_px)
     join_crossings(net, lines, width_px)
     contract_short(net, radius, 1.0)
     if tidy(net, radius, width_px):

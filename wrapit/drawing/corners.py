@@ -14,9 +14,12 @@ from wrapit.geometry import FloatArray, unit
 
 # In stroke widths.
 _NEAR = 0.8
-_FAR = 2.6
+_FAR = 4.5
+_SIDE = 1.8
 _PROBE = 1.7
 _LEAST = 0.45
+_TIP = 5.0
+_AT_TIP = 0.8
 # A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one.
 _ROUND = 0.7
 _SEEN_RAD = math.radians(28)
@@ -68,10 +71,22 @@ def _candidates(line: Line, width_px: float, low: float, high: float) -> list[fl
     tops = inner[(turn == peak) & (turn > _SEEN_RAD)]
     places: list[float] = []
     for top in tops:
-        # Where the line turns by the same angle over a stretch, its middle.
-        if not places or along[top] - places[-1] > width_px:
-            places.append(float(along[top]))
+        place = _disturbed_middle(line, int(top), 0.4 * width_px)
+        if not places or place - places[-1] > width_px:
+            places.append(place)
     return places
+
+
+def _disturbed_middle(line: Line, at: int, least: float) -> float:
+    """Length at the middle of the disturbed stretch around a point, whose own shape means nothing."""
+    first = last = at
+    while first > 0 and not line.clean[first - 1 : first + 1].all():
+        first -= 1
+    while last < len(line.clean) - 1 and not line.clean[last : last + 2].all():
+        last += 1
+    if line.along[last] - line.along[first] < least:
+        return float(line.along[at])
+    return float(line.along[first] + line.along[last]) / 2
 
 
 def _corner(line: Line, width_px: float, place: float, start: float, end: float) -> Corner | None:
@@ -80,6 +95,9 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
     sides = []
     for side in ((along >= start - place) & (along <= -near), (along >= near) & (along <= end - place)):
         chosen = np.flatnonzero(side & line.clean)
+        # The nearest clean stretch; at an acute tip it begins far from the apex.
+        if len(chosen):
+            chosen = chosen[np.abs(along[chosen]) <= np.abs(along[chosen]).min() + _SIDE * width_px]
         if len(chosen) < 4 or np.ptp(along[chosen]) < _LEAST * width_px:
             return None
         degree = 2 if np.ptp(along[chosen]) > 1.2 * width_px else 1
@@ -97,11 +115,11 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
 
 
 def _crossing(
-    before: FloatArray, after: FloatArray, width_px: float
+    before: FloatArray, after: FloatArray, width_px: float, limit: float = _FAR
 ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
     """Where two parametric polynomials meet near their zero, and their directions there."""
     s, t = 0.0, 0.0
-    limit = 1.6 * width_px
+    limit *= width_px
     for _ in range(6):
         p, dp = _value(before, s)
         q, dq = _value(after, t)
@@ -121,6 +139,37 @@ def _value(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]
     powers = at ** np.arange(len(coefficients))
     slopes = np.arange(1, len(coefficients)) * powers[:-1]
     return powers @ coefficients, slopes @ coefficients[1:]
+
+
+def open_tips(net: Network, lines: dict[int, Line], width_px: float) -> None:
+    """Makes a corner of each acute tip: there thinning leaves a fork whose stem ends where its arms would meet."""
+    for node in [node for node in net.nodes if net.degree(node) == 3]:
+        stems = [
+            (strand, end)
+            for strand, end in net.ends_at(node)
+            if net.degree(_other(net, strand, end)) == 1 and lines[strand].length < _TIP * width_px
+        ]
+        if len(stems) != 1:
+            continue
+        strand, end = stems[0]
+        sides = [arm(lines[s], s, e, width_px) for s, e in net.ends_at(node) if s != strand]
+        if len(sides) != 2 or sides[0].strand == sides[1].strand:
+            continue
+        crossing = _crossing(sides[0].model, sides[1].model, width_px, _TIP + 1)
+        if crossing is None:
+            continue
+        apex, first, second = crossing
+        tip = net.nodes[_other(net, strand, end)]
+        if np.linalg.norm(apex - tip) < _AT_TIP * width_px and angle(first, second) < math.pi / 2:
+            net.note("spur", tip, lines[strand].length, "the tip of an acute corner")
+            net.drop_strand(strand)
+            del lines[strand]
+            net.drop_lonely()
+            net.nodes[node] = apex
+
+
+def _other(net: Network, strand: int, end: int) -> int:
+    return net.strands[strand].end if end == 0 else net.strands[strand].start
 
 
 def split_corners(net: Network, lines: dict[int, Line], width_px: float, corner_rad: float) -> None:

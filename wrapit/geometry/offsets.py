@@ -15,7 +15,7 @@ _SAMPLE_MM = 1e-4
 def offset_region(region: Region, distance_mm: float) -> tuple[Region, ...]:
     """The region grown by a distance (shrunk if it is negative): none, one or more regions.
 
-    Polygons decide what is left, the true curves where it lies, to 2e-6 mm; convex corners become arcs.
+    Polygons decide what is left, the true curves where it lies, to 1e-4 mm; convex corners become arcs.
     """
     from shapely import Polygon, get_parts
     from shapely.geometry.polygon import orient

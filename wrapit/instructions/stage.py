@@ -6,9 +6,11 @@ from collections.abc import Sequence
 
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.decomposition.model import Solution
+from wrapit.instructions.laser_page import plan_laser_page
 from wrapit.instructions.pictures import Pictures
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.wording import listed, millimetres
+from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
 from wrapit.wires.model import Wire
 
@@ -21,10 +23,12 @@ def write_instructions(
     *,
     name: str = "wire jewellery",
     jigset: JigSet | None = None,
+    laser: LaserJig | None = None,
 ) -> str:
     """guide.html: materials, the making of each wire stretch by stretch, ties, assembly.
 
-    The page needs no other file, no network and no script; the same input gives the same text.
+    With a laser-cut jig, also how to glue it. The page needs no other file, no network and no script;
+    the same input gives the same text.
     Raises ValueError when there are no wires.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -40,4 +44,6 @@ def write_instructions(
         lstrip_blocks=True,
     )
     environment.filters |= {"mm": millimetres, "listed": listed}
-    return environment.get_template("guide.html.jinja").render(guide=guide, pictures=Pictures(guide))
+    page = plan_laser_page(laser, wires) if laser is not None else None
+    template = environment.get_template("guide.html.jinja")
+    return template.render(guide=guide, pictures=Pictures(guide), page=page)

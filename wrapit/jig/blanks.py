@@ -27,7 +27,7 @@ SIMPLER_MM = 5e-4
 def wall_polygons(
     course: Course, config: JigConfig, obstacles: Any
 ) -> tuple[list[tuple[Any, tuple[Turn, ...]]], tuple[Finding, ...]]:
-    """Each wall's polygon with the turns that it holds, from lower left to upper right.
+    """Each wall's polygon with the turns that it holds, from lower left to upper right; what was dropped.
 
     Walls thinner than `min_wall_width` or smaller than `min_wall_area` are left out, and so are
     those that touch the inside of no turn.
@@ -42,10 +42,12 @@ def wall_polygons(
     ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
     ground = ground.simplify(SIMPLER_MM)
     free = ground.difference(course.channels).difference(obstacles)
-    pieces = [part for part in _polygons(_printable(free, config)) if part.area >= config.min_wall_area]
-    pieces.sort(key=lambda part: tuple(np.round(part.bounds, 6)))
+    pieces = sorted(_polygons(_printable(free, config)), key=lambda part: tuple(np.round(part.bounds, 6)))
     held = _held(course, turns, pieces)
-    return [(piece, held[i]) for i, piece in enumerate(pieces) if held[i]], ()
+    walls = [(piece, mine) for piece, mine in zip(pieces, held, strict=True) if mine]
+    kept = [wall for wall in walls if wall[0].area >= config.min_wall_area]
+    small = [piece for piece, _ in walls if piece.area < config.min_wall_area]
+    return kept, (_dropped(small, config),) if small else ()
 
 
 def blank(course: Course, turn: Turn, config: JigConfig) -> Any:
@@ -67,6 +69,19 @@ def blank(course: Course, turn: Turn, config: JigConfig) -> Any:
         corners = np.stack([points[:-1], points[1:], far[1:], far[:-1]], axis=1)
         strips.append(shapely.convex_hull(shapely.multipoints(corners)))
     return shapely.union_all(np.concatenate(strips))
+
+
+def _dropped(small: Sequence[Any], config: JigConfig) -> Finding:
+    largest = max(small, key=lambda piece: piece.area)
+    x, y = largest.representative_point().coords[0]
+    return Finding(
+        "note",
+        "small-wall",
+        f"({x:.1f}, {y:.1f}) mm",
+        f"{len(small)} walls smaller than {config.min_wall_area:g} mm² are left out,"
+        f" the largest of {largest.area:.1f} mm²",
+        "make the piece larger, or lower jig.min_wall_area",
+    )
 
 
 def _printable(free: Any, config: JigConfig) -> Any:

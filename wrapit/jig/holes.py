@@ -15,7 +15,7 @@ from wrapit.jig.model import Hole
 
 HOLE_OVER_WIRE_MM = 0.5
 WEB_MM = 0.8  # holes with less plate between them become one
-FOOT_MM = 0.3  # between a hole's rim and a wall's foot
+FOOT_MM = 0.1  # between a hole's rim and a wall's foot
 _PAD_MM, _SLACK_MM = 3e-4, 1.2e-3
 
 
@@ -38,12 +38,16 @@ def start_holes(course: Course, config: JigConfig) -> tuple[Hole, ...]:
     return tuple(holes)
 
 
-def hole_obstacles(holes: tuple[Hole, ...]) -> Any:
-    """Where no wall may stand because of the holes."""
+def hole_rims(holes: tuple[Hole, ...]) -> Any:
+    """The holes as shapely geometry."""
     import shapely
 
-    rims = [shapely.Polygon(hole.outline.sampled(0.002)) for hole in holes]
-    return shapely.union_all(shapely.buffer(rims, FOOT_MM, quad_segs=16))
+    return shapely.union_all([shapely.Polygon(hole.outline.sampled(0.002)) for hole in holes])
+
+
+def hole_obstacles(holes: tuple[Hole, ...]) -> Any:
+    """Where no wall may stand because of the holes."""
+    return hole_rims(holes).buffer(FOOT_MM, quad_segs=16)
 
 
 def _tails(poles: FloatArray, name: str, config: JigConfig) -> list[tuple[str, FloatArray]]:

@@ -7,6 +7,7 @@ from typing import Literal
 
 from wrapit.geometry import Edge, Region
 from wrapit.geometry.moves import moved
+from wrapit.jig.model import Pin
 
 LaserLayer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 PartRole = Literal["bottom", "pocket plate", "island", "wall"]
@@ -106,11 +107,15 @@ class LaserChecks:
 
 @dataclass(frozen=True, eq=False)
 class LaserJig:
-    """All parts, their sheets, and the measurements; `wall_height_mm` is what stands above the plate."""
+    """All parts, their sheets, and the measurements; `wall_height_mm` is what stands above the plate.
+
+    `pins` are nails or rods that stand in holes where a turn is too tight for a wall.
+    """
 
     parts: tuple[LaserPart, ...]
     sheets: tuple[LaserSheet, ...]
     kerf_mm: float
     fit_mm: float
     wall_height_mm: float
+    pins: tuple[Pin, ...]
     checks: LaserChecks

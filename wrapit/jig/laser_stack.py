@@ -92,9 +92,9 @@ def _clear_holes(
         findings.append(
             Finding(
                 "warning",
-                "start-hole-in-wall",
-                f"{jig}, start of {', '.join(hole.wires)}",
-                f"a start hole of {hole.diameter_mm:.1f} mm has no room beside the wall; it is left out",
+                "hole-in-wall",
+                f"{jig}, {', '.join(hole.wires)} at ({hole.centre[0]:.1f}, {hole.centre[1]:.1f})",
+                f"a hole of {hole.diameter_mm:.1f} mm has no room beside the wall; it is left out",
                 "hold the tail with tape there, or make the piece larger",
             )
         )

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
+from dataclasses import dataclass
 
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
+from wrapit.geometry.moves import circle
 from wrapit.geometry.offsets import offset_region
 from wrapit.jig.blanks import wall_polygons
 from wrapit.jig.course import Course
-from wrapit.jig.holes import start_holes
+from wrapit.jig.holes import hole_rims, start_holes
 from wrapit.jig.laser_checks import check_sheets
 from wrapit.jig.laser_model import LaserJig, LaserPart
 from wrapit.jig.laser_nesting import nest
 from wrapit.jig.laser_stack import copies_needed, stack_parts
-from wrapit.jig.model import Hole, JigSet
-from wrapit.wires.model import Wire
+from wrapit.jig.model import Hole, JigSet, Pin
+from wrapit.jig.pins import pin_holes
+from wrapit.wires.model import Turn, Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate.
 HOLE_WEB_MM = 1.2
@@ -33,13 +36,18 @@ def build_laser_jig(
     if not wires:
         raise JigError("there are no wires to make a jig for")
     parts: list[LaserPart] = []
+    pins: list[Pin] = []
     findings: list[Finding] = []
     for number, jig in enumerate(jigset.jigs, start=1):
         mine = tuple(wire for wire in wires if wire.name in jig.wires)
         prefix = f"{number}." if len(jigset.jigs) > 1 else ""
-        walls, holes, more = laser_walls(mine, jig_config, config)
-        stack, faults = stack_parts(jig.name, prefix, mine, walls, holes, jig_config, config, offset_region)
+        plan, more = plan_stack(mine, jig_config, config)
+        holes = (*plan.holes, *(_hole_for(pin) for pin in plan.pins))
+        stack, faults = stack_parts(
+            jig.name, prefix, mine, plan.walls, holes, jig_config, config, offset_region
+        )
         parts += stack
+        pins += plan.pins
         findings += [*more, *faults]
     sheets, unfit = nest(parts, config)
     checks, faults = check_sheets(parts, sheets, config.kerf)
@@ -50,17 +58,27 @@ def build_laser_jig(
         kerf_mm=config.kerf,
         fit_mm=config.fit,
         wall_height_mm=copies * config.wall_sheet - config.sheet,
+        pins=tuple(pins),
         checks=checks,
     )
     return jig_model, (*findings, *_stacked(copies, config), *unfit, *faults)
 
 
-def laser_walls(
-    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
-) -> tuple[tuple[Region, ...], tuple[Hole, ...], tuple[Finding, ...]]:
-    """Exact faces of the walls of one stack, and its start holes.
+@dataclass(frozen=True, eq=False)
+class LaserPlan:
+    """What one stack is made of: exact wall faces, start holes, pins in turns too tight for a wall."""
 
-    Walls keep away from start holes so that a web stays between hole and pocket.
+    walls: tuple[Region, ...]
+    holes: tuple[Hole, ...]
+    pins: tuple[Pin, ...]
+
+
+def plan_stack(
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
+) -> tuple[LaserPlan, tuple[Finding, ...]]:
+    """The plan of one stack, with a finding for each wire whose turns get neither wall nor pin.
+
+    Walls keep away from holes so that a web stays between hole and pocket.
     """
     import shapely
 
@@ -69,31 +87,33 @@ def laser_walls(
     )
     course = Course.of(wires, wide)
     holes = start_holes(course, wide)
-    rims = [shapely.Polygon(hole.outline.sampled(0.002)) for hole in holes]
-    kept_clear = shapely.union_all(shapely.buffer(rims, HOLE_WEB_MM + config.fit, quad_segs=16))
-    polygons, findings = wall_polygons(course, wide, kept_clear)
+    rims = hole_rims(holes)
+    pins = pin_holes(course, wide, rims)
+    discs = [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2, quad_segs=32) for pin in pins]
+    clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
+    polygons, dropped = wall_polygons(course, wide, clear)
     walls = tuple(course.outliner.region(polygon) for polygon, _ in polygons)
-    return walls, holes, (*findings, *_unheld(course.wires, polygons))
+    held = {turn for _, turns in polygons for turn in turns} | {pin.turn for pin in pins}
+    loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
+    return LaserPlan(walls, holes, pins), (*dropped, *loose)
 
 
-def _unheld(wires: Sequence[Wire], polygons: Sequence[tuple[object, tuple[object, ...]]]) -> list[Finding]:
-    """A finding for each wire with turns that no wall of sheet holds."""
-    held = {id(turn) for _, turns in polygons for turn in turns}
-    findings = []
-    for wire in wires:
-        loose = [turn for turn in wire.turns if id(turn) not in held]
-        if loose:
-            places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)
-            findings.append(
-                Finding(
-                    "warning",
-                    "turn-without-wall",
-                    f"{wire.name} at {places} mm",
-                    f"{len(loose)} of {len(wire.turns)} turns leave no room for a wall cut from sheet",
-                    "bend there by hand, make the piece larger, or print the jig",
-                )
-            )
-    return findings
+def _unheld(wire: Wire, held: Set[Turn]) -> Finding | None:
+    loose = [turn for turn in wire.turns if turn not in held]
+    if not loose:
+        return None
+    places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)
+    return Finding(
+        "warning",
+        "turn-without-wall",
+        f"{wire.name} at {places} mm",
+        f"{len(loose)} of {len(wire.turns)} turns leave no room for a wall cut from sheet",
+        "bend there by hand, make the piece larger, or print the jig",
+    )
+
+
+def _hole_for(pin: Pin) -> Hole:
+    return Hole(pin.centre, pin.diameter_mm, (pin.turn.wire,), circle(pin.centre, pin.diameter_mm / 2))
 
 
 def _stacked(copies: int, config: PlateConfig) -> list[Finding]:

@@ -41,15 +41,36 @@ class Plate:
     thickness_mm: float
 
 
+@dataclass(frozen=True)
+class Pin:
+    """A hole for a pin inside a turn that is too tight for a wall."""
+
+    turn: Turn
+    centre: tuple[float, float]
+    diameter_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """A wire's number, engraved as flat pockets."""
+
+    text: str
+    strokes: tuple[Region, ...]
+    depth_mm: float
+
+
 @dataclass(frozen=True, eq=False)
 class JigPlan:
-    """Which walls, holes and plate a jig for these wires has."""
+    """Which walls, holes, pins, labels and plate a jig for these wires has."""
 
     name: str
     wires: tuple[str, ...]
     walls: tuple[Wall, ...]
     holes: tuple[Hole, ...]
     plate: Plate
+    pins: tuple[Pin, ...] = ()
+    labels: tuple[Label, ...] = ()
+    screw_holes: tuple[Loop, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -92,7 +113,7 @@ class Jig:
 
 @dataclass(frozen=True, eq=False)
 class JigSet:
-    """All jigs of a piece; `split` says whether the wires share one."""
+    """All jigs of a piece; `split` is "per-wire" as soon as the wires are parted over several jigs."""
 
     split: Literal["single", "per-wire"]
     jigs: tuple[Jig, ...]

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.blanks import wall_polygons
 from wrapit.jig.course import Course
-from wrapit.jig.holes import hole_obstacles, start_holes
-from wrapit.jig.model import JigPlan, Plate, Wall
+from wrapit.jig.heights import wall_heights
+from wrapit.jig.holes import hole_obstacles, hole_rims, start_holes
+from wrapit.jig.labels import wire_labels
+from wrapit.jig.model import JigPlan, Label, Plate, Wall
+from wrapit.jig.pins import pin_holes, pin_obstacles
 from wrapit.jig.plates import plate_outline
 from wrapit.wires.model import Wire
 
-LEAST_WALL_HEIGHT_MM = 4.0
-HEADROOM_MM = 1.5
+LABEL_GAP_MM = 0.3
 
 
 def plan_jig(
@@ -21,7 +25,8 @@ def plan_jig(
 ) -> tuple[JigPlan, tuple[Finding, ...]]:
     """The plan of one jig that holds all these wires.
 
-    Raises JigError without wires, ValueError for wires of different diameters.
+    Raises JigError without wires or where the plate doesn't fit the bed, ValueError for wires of
+    different diameters.
     """
     import shapely
 
@@ -29,15 +34,30 @@ def plan_jig(
         raise JigError("there are no wires to make a jig for")
     course = Course.of(wires, config)
     holes = start_holes(course, config)
-    polygons, findings = wall_polygons(course, config, hole_obstacles(holes))
-    walls = tuple(Wall(turns, polygon, _height_mm(course)) for polygon, turns in polygons)
-    rims = [shapely.Polygon(hole.outline.sampled(0.01)) for hole in holes]
-    covered = shapely.union_all([course.channels, *rims, *(wall.outline for wall in walls)])
-    outline = plate_outline(covered, config.margin, config.corner_radius)
+    rims = hole_rims(holes)
+    pins = pin_holes(course, config, rims)
+    blocked = shapely.union_all([hole_obstacles(holes), pin_obstacles(pins)])
+    polygons, dropped = wall_polygons(course, config, blocked)
+    heights = wall_heights(course, [polygon for polygon, _ in polygons], config)
+    walls = tuple(
+        Wall(turns, polygon, height) for (polygon, turns), height in zip(polygons, heights, strict=True)
+    )
+    covered = shapely.union_all([course.channels, rims, *(wall.outline for wall in walls)])
+    outline, screws = plate_outline(covered, config, name)
     plate = Plate(Region(outline), config.base_thickness)
-    return JigPlan(name, tuple(wire.name for wire in wires), walls, holes, plate), findings
+    labels: tuple[Label, ...] = ()
+    unlabelled: tuple[Finding, ...] = ()
+    if config.numbers:
+        taken = shapely.union_all([blocked, rims, *(wall.outline for wall in walls)]).buffer(LABEL_GAP_MM)
+        screwed = [_polygon(screw).buffer(LABEL_GAP_MM) for screw in screws]
+        labels, unlabelled = wire_labels(
+            course, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
+        )
+    names = tuple(wire.name for wire in wires)
+    return JigPlan(name, names, walls, holes, plate, pins, labels, screws), (*dropped, *unlabelled)
 
 
-def _height_mm(course: Course) -> float:
-    layers = max(wire.layers for wire in course.wires)
-    return max(LEAST_WALL_HEIGHT_MM, (layers + 1) * course.diameter_mm + HEADROOM_MM)
+def _polygon(loop: Any) -> Any:
+    import shapely
+
+    return shapely.Polygon(loop.sampled(0.01))

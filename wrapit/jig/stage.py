@@ -6,9 +6,12 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.course import Course
-from wrapit.jig.model import Jig, JigPlan, JigSet, Part
+from wrapit.jig.model import Jig, JigSet, Part
 from wrapit.jig.plan import plan_jig
-from wrapit.jig.support import min_wall_to_wire_mm, turn_support
+from wrapit.jig.proof import split_finding, support_findings
+from wrapit.jig.solids import jig_solid
+from wrapit.jig.split import grouped
+from wrapit.jig.support import min_wall_to_wire_mm, support_by_wire, turn_support
 from wrapit.wires.model import Wire
 
 COLOUR = "#c8ccd4"
@@ -16,32 +19,79 @@ CLEARANCE_TOLERANCE_MM = 1e-3
 
 
 def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
-    """The printed jig of these wires, checked.
+    """The printed jig of these wires, or several where one would hold a wire badly; checked.
 
     Raises JigError where no jig can be made or one fails its check, KernelError where the kernel fails.
     """
-    plan, findings = plan_jig(wires, config)
-    return JigSet("single", (_build(plan, wires, config),)), findings
+    if config.split == "single":
+        return _set([_planned(wires, config, "jig")], config, ())
+    if config.split == "per-wire":
+        return _set([_planned((wire,), config, f"jig-{wire.name}") for wire in wires], config, ())
+    single = _planned(wires, config, "jig")
+    shared = single.by_wire
+    if min(shared.values(), default=1.0) >= config.min_turn_support or len(wires) == 1:
+        return _set([single], config, ())
+    apart = [_planned((wire,), config, f"jig-{wire.name}") for wire in wires]
+    alone = {name: share for each in apart for name, share in each.by_wire.items()}
+    groups = grouped(wires, alone, config)
+    if len(groups) == 1 or all(alone[name] - share < 1e-3 for name, share in shared.items()):
+        return _set([single], config, ())
+    parts = [
+        next(each for each in apart if each.course.wires == group)
+        if len(group) == 1
+        else _planned(group, config, _name(group))
+        for group in groups
+    ]
+    return _set(parts, config, (split_finding(shared, len(groups), config.min_turn_support),))
 
 
-def _build(plan: JigPlan, wires: tuple[Wire, ...], config: JigConfig) -> Jig:
-    course = Course.of(tuple(wire for wire in wires if wire.name in plan.wires), config)
-    walls = tuple(course.outliner.region(wall.outline) for wall in plan.walls)
-    gap = _checked_gap(course, walls, config)
-    solid = _solid(plan, walls)
+class _Planned:
+    """A plan with its exact faces and what they hold; the solid comes later."""
+
+    def __init__(self, wires: tuple[Wire, ...], config: JigConfig, name: str) -> None:
+        self.course = Course.of(wires, config)
+        self.plan, self.findings = plan_jig(wires, config, name)
+        self.walls = tuple(self.course.outliner.region(wall.outline) for wall in self.plan.walls)
+        self.support = turn_support(self.course, self.walls)
+        self.by_wire = support_by_wire(self.support)
+
+
+def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> _Planned:
+    return _Planned(wires, config, name)
+
+
+def _name(group: tuple[Wire, ...]) -> str:
+    return "jig-" + "-".join([group[0].name, *(wire.name.removeprefix("wire-") for wire in group[1:])])
+
+
+def _set(
+    parts: list[_Planned], config: JigConfig, said: tuple[Finding, ...]
+) -> tuple[JigSet, tuple[Finding, ...]]:
+    jigs = tuple(_built(part, config) for part in parts)
+    findings = [*said]
+    for part in parts:
+        findings += [*part.findings, *support_findings(part.course, part.plan, part.support, config)]
+    return JigSet("single" if len(jigs) == 1 else "per-wire", jigs), tuple(findings)
+
+
+def _built(part: _Planned, config: JigConfig) -> Jig:
+    gap = _checked_gap(part.course, part.walls, config)
+    solid = jig_solid(part.plan, part.walls)
     from wrapit.kernel.checks import count_solids, size_mm, volume_mm3
 
+    plan = part.plan
+    openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
     return Jig(
         name=plan.name,
         wires=plan.wires,
         part=Part(plan.name, solid, COLOUR),
-        walls=walls,
-        plate=Region(plan.plate.outline.outer, tuple(hole.outline for hole in plan.holes)),
+        walls=part.walls,
+        plate=Region(plan.plate.outline.outer, tuple(openings)),
         plan=plan,
         valid=True,
         solids=count_solids(solid),
         volume_mm3=volume_mm3(solid),
-        support=turn_support(course, walls),
+        support=part.support,
         min_wall_to_wire_mm=gap,
         size_mm=size_mm(solid),
     )
@@ -56,12 +106,3 @@ def _checked_gap(course: Course, walls: tuple[Region, ...], config: JigConfig) -
             "change jig.clearance or the size a little",
         )
     return gap
-
-
-def _solid(plan: JigPlan, walls: tuple[Region, ...]) -> object:
-    from wrapit.kernel.terraces import Terrace, terraced_solid
-
-    top = plan.plate.thickness_mm
-    terraces = [Terrace(region, top + wall.height_mm) for region, wall in zip(walls, plan.walls, strict=True)]
-    holes = [hole.outline for hole in plan.holes]
-    return terraced_solid(plan.plate.outline.outer, 0.0, top, terraces, holes, f"jig {plan.name}")
