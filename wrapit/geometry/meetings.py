@@ -13,6 +13,7 @@ from wrapit.geometry.parallels import Parallel, Round, Side
 
 NEAR_MM = 0.3
 SAME_MM = 2e-6
+REACH_PIECES = 2.0
 VISIBLE_MM = 2e-7
 _NEWTON_STEPS = 30
 
@@ -85,10 +86,12 @@ def _at_joint(before: Run, after: Run) -> Meeting | None:
     a, b = before.parallel, after.parallel
     assert a is not None
     assert b is not None
-    for place_a, place_b in _joints(a, b):
+    for place_a, place_b in _joints(before, after):
         point_a, point_b = (p.at(np.array([s]))[0][0] for p, s in ((a, place_a), (b, place_b)))
         if (
-            np.linalg.norm(point_a - point_b) <= SAME_MM
+            _within_reach(a, place_a, before.place[-1])
+            and _within_reach(b, place_b, after.place[0])
+            and np.linalg.norm(point_a - point_b) <= SAME_MM
             and np.linalg.norm(point_a - before.points[-1]) <= NEAR_MM
             and np.linalg.norm(point_b - after.points[0]) <= NEAR_MM
         ):
@@ -99,14 +102,23 @@ def _at_joint(before: Run, after: Run) -> Meeting | None:
     return None
 
 
-def _joints(a: Parallel, b: Parallel) -> list[tuple[float, float]]:
-    if isinstance(a, Side) and isinstance(b, Side):
-        return [(s, t) for s in a.bounds for t in b.bounds]
-    if isinstance(a, Side) and isinstance(b, Round):
-        return [(s, _angle(b, a.at(np.array([s]))[0][0])) for s in a.bounds]
+def _joints(before: Run, after: Run) -> list[tuple[float, float]]:
+    """Places where both could meet: the end of a curve that its run is nearer to, and what touches it."""
+    a, b = before.parallel, after.parallel
+    if isinstance(a, Side):
+        s = min(a.bounds, key=lambda place: abs(place - before.place[-1]))
+        if isinstance(b, Side):
+            return [(s, min(b.bounds, key=lambda place: abs(place - after.place[0])))]
+        if isinstance(b, Round):
+            return [(s, _angle(b, a.at(np.array([s]))[0][0]))]
     if isinstance(a, Round) and isinstance(b, Side):
-        return [(_angle(a, b.at(np.array([s]))[0][0]), s) for s in b.bounds]
+        t = min(b.bounds, key=lambda place: abs(place - after.place[0]))
+        return [(_angle(a, b.at(np.array([t]))[0][0]), t)]
     return []
+
+
+def _within_reach(parallel: Parallel, place: float, run_end: float) -> bool:
+    return isinstance(parallel, Round) or abs(place - run_end) <= REACH_PIECES
 
 
 def _angle(circle: Round, point: FloatArray) -> float:

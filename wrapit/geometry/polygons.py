@@ -16,6 +16,7 @@ from wrapit.geometry.pieces import chain_of
 
 CORNER_RAD = math.radians(20)
 STRAIGHT_MM = 1e-4
+FIT_STEP_MM = 0.25
 
 
 def polygon_of(region: Region, tolerance_mm: float) -> Any:
@@ -49,10 +50,22 @@ def fitted_edges(points: FloatArray, tolerance_mm: float) -> list[Edge]:
     points = points[np.concatenate([[True], np.linalg.norm(steps, axis=1) > 1e-7])]
     if len(points) < 2:
         return []
+    points = _with_points_between(points)
     headings = np.arctan2(*np.diff(points, axis=0).T[::-1])
     bends = np.abs((np.diff(headings) + math.pi) % (2 * math.pi) - math.pi)
     corners = [0, *(np.flatnonzero(bends > CORNER_RAD) + 1).tolist(), len(points) - 1]
     return [_smooth_edge(points[a : b + 1], tolerance_mm) for a, b in itertools.pairwise(corners)]
+
+
+def _with_points_between(points: FloatArray) -> FloatArray:
+    """The points, and more on long straight stretches, where a curve could otherwise swing out."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    counts = np.ceil(steps / FIT_STEP_MM).astype(int)
+    parts = [
+        a + (b - a) * (np.arange(count) / count)[:, None]
+        for a, b, count in zip(points[:-1], points[1:], counts, strict=True)
+    ]
+    return np.concatenate([*parts, points[-1:]])
 
 
 def _edge_area(edge: Edge) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from wrapit.config import JigConfig
-from wrapit.errors import Finding, JigError
+from wrapit.errors import Finding
 from wrapit.geometry import Region
 from wrapit.jig.blanks import wall_polygons
 from wrapit.jig.course import Course
@@ -25,13 +25,11 @@ def plan_jig(
 ) -> tuple[JigPlan, tuple[Finding, ...]]:
     """The plan of one jig that holds all these wires.
 
-    Raises JigError without wires or where the plate doesn't fit the bed, ValueError for wires of
+    Raises JigError where the plate doesn't fit the bed, ValueError without wires or for wires of
     different diameters.
     """
     import shapely
 
-    if not wires:
-        raise JigError("there are no wires to make a jig for")
     course = Course.of(wires, config)
     holes = start_holes(course, config)
     rims = hole_rims(holes)

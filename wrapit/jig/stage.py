@@ -23,6 +23,8 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
 
     Raises JigError where no jig can be made or one fails its check, KernelError where the kernel fails.
     """
+    if not wires:
+        raise JigError("there are no wires to make a jig for")
     if config.split == "single":
         return _set([_planned(wires, config, "jig")], config, ())
     if config.split == "per-wire":

@@ -1,0 +1,65 @@
+"""Pins for turns that are too tight for a wall: a nail or a piece of rod in the plate bends the wire."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wrapit.config import JigConfig
+from wrapit.jig.course import Course
+from wrapit.jig.model import Pin
+from wrapit.wires.model import Turn
+
+SMALLEST_PIN_MM = 0.6
+PIN_STEP_MM = 0.1  # rods and drills come in steps of this
+WEB_MM = 0.5  # plate between a pin's hole and anything else
+
+
+def pin_holes(course: Course, config: JigConfig, holes: Any) -> tuple[Pin, ...]:
+    """A pin in the middle of each turn whose inside is narrower than the narrowest wall.
+
+    None where not even the thinnest pin fits, or where it would stand in a wire's way or in a start hole.
+    """
+    import shapely
+
+    if not config.pins:
+        return ()
+    pins: list[Pin] = []
+    taken = holes
+    for wire in course.wires:
+        for turn in wire.turns:
+            pin = _pin(course, turn, config)
+            if pin is None:
+                continue
+            disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
+            if course.channels.intersects(disc.buffer(-0.02)) or taken.intersects(disc.buffer(WEB_MM)):
+                continue
+            pins.append(pin)
+            taken = taken.union(disc)
+    return tuple(pins)
+
+
+def pin_obstacles(pins: tuple[Pin, ...]) -> Any:
+    """Where no wall may stand because of the pins."""
+    import shapely
+
+    return shapely.union_all(
+        [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2 + WEB_MM, quad_segs=16) for pin in pins]
+    )
+
+
+def _pin(course: Course, turn: Turn, config: JigConfig) -> Pin | None:
+    if turn.inside == "both" or turn.max_curvature_per_mm <= 0:
+        return None
+    side = 1.0 if turn.inside == "left" else -1.0
+    _, points, normals, curvature = course.stations(turn, 0.05)
+    tightest = int((side * curvature).argmax())
+    bend = float(side * curvature[tightest])
+    if bend <= 0:
+        return None
+    room = 2 * (1 / bend - course.reach_mm)
+    diameter = math.floor(room / PIN_STEP_MM + 1e-6) * PIN_STEP_MM
+    if room >= config.min_wall_width or diameter < SMALLEST_PIN_MM - 1e-9:
+        return None
+    centre = points[tightest] + side / bend * normals[tightest]
+    return Pin(turn, (float(centre[0]), float(centre[1])), round(diameter, 6))
