@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -43,8 +43,12 @@ def read_picture(path: Path, tracing: TracingConfig) -> Picture:
     Raises DrawingError where it can't be read, has no ink, or is noise.
     """
     grey, light_on_dark = load_grey(path, tracing.pixel_limit)
-    grey, factor = _reduced(grey)
-    ink = _inked(find_ink(grey, str(path)), tracing)
+    found, factor = find_ink(grey, str(path)), 1.0
+    times = _reduction(found)
+    if times > 1:
+        grey, factor = _reduced(found.grey, times), float(times)
+        found = replace(find_ink(grey, str(path)), shaded=found.shaded)
+    ink = _inked(found, tracing)
     skeleton = _skeleton(ink, path)
     if skeleton.width_px < _THIN_PX:
         times = int(np.ceil(_GOOD_PX / max(skeleton.width_px, 1.0)))
@@ -63,18 +67,19 @@ def _skeleton(ink: Ink, path: Path) -> Skeleton:
     return skeleton
 
 
-def _reduced(grey: GreyImage) -> tuple[GreyImage, float]:
-    """Thick strokes carry no more detail than thin ones: whole blocks of pixels become one."""
-    middle = (int(grey.min()) + int(grey.max())) // 2
-    mask = grey < middle
+def _reduction(ink: Ink) -> int:
+    """How many pixels may become one: thick strokes carry no more detail than thin ones."""
+    mask = ink.mask
     steps = np.count_nonzero(mask[1:] != mask[:-1]) + np.count_nonzero(mask[:, 1:] != mask[:, :-1])
     width_px = 2 * np.count_nonzero(mask) / max(steps * np.pi / 4, 1.0)
     times = int(width_px / (_THICK_PX / 2))
-    if width_px < _THICK_PX or min(grey.shape) < 64 * times:
-        return grey, 1.0
+    return times if width_px >= _THICK_PX and min(mask.shape) >= 64 * times else 1
+
+
+def _reduced(grey: GreyImage, times: int) -> GreyImage:
     height, width = (side // times for side in grey.shape)
     blocks = grey[: height * times, : width * times].reshape(height, times, width, times)
-    return (blocks.mean(axis=(1, 3), dtype=np.float32) + 0.5).astype(np.uint8), float(times)
+    return (blocks.mean(axis=(1, 3), dtype=np.float32) + 0.5).astype(np.uint8)
 
 
 def _enlarged(grey: GreyImage, times: int) -> GreyImage:

@@ -35,6 +35,7 @@ class Strokes:
     curves: list[Curve]
     width_px: float | None
     filled: int
+    mm_per_px: float
 
 
 def trace_svg(
@@ -55,7 +56,9 @@ def trace_svg(
         raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
     changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]
     connected = connect(graph.places, graph.pieces, tracing.components, 0.25 * size)
-    where = placement([piece.curve for piece in connected.pieces], size_mm, flip=True, scale=_MM_PER_PX)
+    where = placement(
+        [piece.curve for piece in connected.pieces], size_mm, flip=True, scale=strokes.mm_per_px
+    )
     drawing = assemble(
         connected.places,
         connected.pieces,
@@ -117,7 +120,15 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
             )
         raise DrawingError("the drawing has no stroked lines", str(path), "give the lines a stroke")
     usual = float(np.median(widths)) if widths else None
-    return Strokes(curves, usual if usual and math.isfinite(usual) and usual > 0 else None, filled)
+    return Strokes(
+        curves, usual if usual and math.isfinite(usual) and usual > 0 else None, filled, _mm_per_px(root)
+    )
+
+
+def _mm_per_px(root: Any) -> float:
+    """Exact scale; svgelements takes a metric unit for 0.0393701 inches per mm."""
+    metric = re.fullmatch(r"[-+.\deE]+\s*(?:mm|cm)", str(root.values.get("width", "")).strip())
+    return _MM_PER_PX / (25.4 * 0.0393701) if metric else _MM_PER_PX
 
 
 def _safe_text(path: Path) -> str:
@@ -269,7 +280,7 @@ def _curves(shape: Any, path: Path) -> list[Curve]:
 
 def _add(cubics: list[FloatArray], new: list[FloatArray], path: Path) -> None:
     for cubic in new:
-        if not np.isfinite(cubic).all():
+        if not np.isfinite(cubic).all() or np.abs(cubic).max() > 1e12:
             raise DrawingError("a coordinate is not a finite number", str(path), "correct the path data")
         if np.abs(np.diff(cubic, axis=0)).max() > 1e-9:
             cubics.append(cubic)
@@ -277,6 +288,8 @@ def _add(cubics: list[FloatArray], new: list[FloatArray], path: Path) -> None:
 
 def _line(start: Any, end: Any) -> FloatArray:
     a, b = np.array([start.x, start.y]), np.array([end.x, end.y])
+    if not (np.isfinite(a).all() and np.isfinite(b).all()):
+        return np.full((4, 2), np.nan)
     return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
 
 

@@ -170,42 +170,58 @@ def _sorted(parts: list[_Pieces]) -> _Pieces:
 
 
 def _solve(course: _Course, pieces: _Pieces, tolerance: float) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Best Bézier of each piece (m, 4, 2), its greatest distance (m,), and the point where that is."""
+    """Best Bézier of each piece (m, 4, 2), its greatest distance (m,), and the point where that is.
+
+    A piece is done once it is close enough, so that no piece depends on the others.
+    """
+    count = len(pieces)
+    cubics, error = np.zeros((count, 4, 2)), np.full(count, np.inf)
+    worst = np.zeros(count, dtype=np.int64)
+    open_ = np.arange(count)
     index, piece = _ranges(pieces.first, pieces.last)
-    starts = np.concatenate([[0], np.cumsum(pieces.last - pieces.first + 1)[:-1]])
-    points = course.points[index]
     span = course.along[pieces.last] - course.along[pieces.first]
     u = (course.along[index] - course.along[pieces.first][piece]) / np.maximum(span, 1e-12)[piece]
-    ends = course.points[pieces.first], course.points[pieces.last]
     for iteration in range(_ITERATIONS):
-        cubics = _least_squares(points, u, piece, starts, ends, pieces, span)
-        on, first, second = _at(cubics[piece], u)
+        points = course.points[index]
+        starts = np.concatenate([[0], np.cumsum(pieces.last - pieces.first + 1)[:-1]])
+        found = _least_squares(course, pieces, points, u, piece, starts)
+        on, first, second = _at(found[piece], u)
         away = on - points
         squared = (away * away).sum(axis=1)
-        error = np.sqrt(np.maximum.reduceat(squared, starts))
-        if iteration == _ITERATIONS - 1 or (error <= tolerance).all():
+        peak = np.maximum.reduceat(squared, starts)
+        cubics[open_], error[open_] = found, np.sqrt(peak)
+        # Even a piece that is close already gains from one step of better parameters.
+        more = (error[open_] > tolerance) | (iteration == 0)
+        if iteration == _ITERATIONS - 1 or not more.any():
+            worst[open_] = _peaks(squared, index, piece, starts, pieces)
             break
         # Newton's step towards the foot of each point.
         top = (away * first).sum(axis=1)
         bottom = (first * first).sum(axis=1) + (away * second).sum(axis=1)
         step = np.divide(top, bottom, out=np.zeros_like(top), where=bottom > 1e-12)
         u = np.clip(u - np.clip(step, -0.1, 0.1), 0, 1)
+        keep = more[piece]
+        index, u, pieces, open_ = index[keep], u[keep], pieces.where(more), open_[more]
+        piece = (np.cumsum(more) - 1)[piece[keep]]
+    return cubics, error, worst
+
+
+def _peaks(
+    squared: FloatArray, index: IntArray, piece: IntArray, starts: IntArray, pieces: _Pieces
+) -> IntArray:
+    """The inner point of each piece that is farthest from its curve."""
     inner = np.where((index > pieces.first[piece]) & (index < pieces.last[piece]), squared, -1.0)
-    peak = np.maximum.reduceat(inner, starts)
-    hits = np.flatnonzero(inner == peak[piece])
+    hits = np.flatnonzero(inner == np.maximum.reduceat(inner, starts)[piece])
     _, firsts = np.unique(piece[hits], return_index=True)
-    return cubics, error, index[hits[firsts]]
+    return index[hits[firsts]]
 
 
 def _least_squares(
-    points: FloatArray,
-    u: FloatArray,
-    piece: IntArray,
-    starts: IntArray,
-    ends: tuple[FloatArray, FloatArray],
-    pieces: _Pieces,
-    span: FloatArray,
+    course: _Course, pieces: _Pieces, points: FloatArray, u: FloatArray, piece: IntArray, starts: IntArray
 ) -> FloatArray:
+    """Handles of the best Bézier of each piece for given parameters."""
+    ends = course.points[pieces.first], course.points[pieces.last]
+    span = course.along[pieces.last] - course.along[pieces.first]
     s = 1 - u
     b1, b2 = 3 * u * s * s, 3 * u * u * s
     low = s * s * s + b1
