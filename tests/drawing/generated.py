@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,7 @@ def render(curves: list[Points], width_px: float, shape: tuple[int, int]) -> NDA
     nearest = np.full(shape, 1e9)
     margin = width_px / 2 + 2
     for curve in curves:
-        for a, b in zip(curve[:-1], curve[1:], strict=True):
+        for a, b in itertools.pairwise(curve):
             low = np.maximum(np.floor(np.minimum(a, b) - margin).astype(int), 0)
             high = np.minimum(np.ceil(np.maximum(a, b) + margin).astype(int), [width - 1, height - 1])
             if (high < low).any():

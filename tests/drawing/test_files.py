@@ -50,7 +50,7 @@ def written(folder: Path, change: dict[str, Any] | None = None) -> Path:
     return path
 
 
-def test_the_format_is_the_contract_s(tmp_path):
+def test_the_format_is_the_contract_s():
     data = json.loads(drawing_json(example()))
     assert data["format"] == "wrapit-drawing/1"
     assert data["unit"] == "mm"

@@ -236,7 +236,7 @@ def test_a_truncated_file_is_refused(suffix, ink, tmp_path):
     Image.fromarray(ink).save(path)
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    with pytest.raises(DrawingError, match="cut off|no image"):
+    with pytest.raises(DrawingError, match=r"cut off|no image"):
         trace(path, TracingConfig(), 40.0)
 
 

@@ -47,7 +47,8 @@ def test_size_comes_from_the_file_or_the_config(tmp_path):
 
 
 def test_transforms_and_groups_apply(tmp_path):
-    body = f'<g transform="translate(10 0) scale(2)"><g transform="rotate(90)"><path {STROKE} d="M5 -5 H 25"/></g></g>'
+    path = f'<path {STROKE} d="M5 -5 H 25"/>'
+    body = f'<g transform="translate(10 0) scale(2)"><g transform="rotate(90)">{path}</g></g>'
     drawing, _ = traced(tmp_path, body)
     assert drawing.bounds_mm[1] == pytest.approx([0, 40], abs=1e-9)
     assert drawing.stroke_width_mm == pytest.approx(4)

@@ -142,7 +142,7 @@ def _value(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]
 
 
 def open_tips(net: Network, lines: dict[int, Line], width_px: float) -> None:
-    """Makes a corner of each acute tip: there thinning leaves a fork whose stem ends where its arms would meet."""
+    """Makes a corner of each acute tip: a fork whose stem ends where its two arms would meet."""
     for node in [node for node in net.nodes if net.degree(node) == 3]:
         stems = [
             (strand, end)
