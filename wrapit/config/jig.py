@@ -50,7 +50,7 @@ class JigConfig(Block):
     """Walls are at least this high; where wires cross they get room for one layer more."""
 
     lead_in: Length = 0.3
-    """Width and depth of the chamfer along the top of the walls, so that wire is easy to lay in."""
+    """The top of each wall is set back by this much, over as much of its height, to let wire in easily."""
 
     base_thickness: PositiveLength = 3.0
     """Thickness of the plate."""

@@ -78,24 +78,24 @@ def _set(
 
 def _built(part: _Planned, config: JigConfig) -> Jig:
     gap = _checked_gap(part.course, part.walls, config)
-    solid = jig_solid(part.plan, part.walls)
-    from wrapit.kernel.checks import count_solids, size_mm, volume_mm3
+    made = jig_solid(part.plan, part.walls, config)
+    from wrapit.kernel.checks import count_solids, size_mm
 
     plan = part.plan
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
     return Jig(
         name=plan.name,
         wires=plan.wires,
-        part=Part(plan.name, solid, COLOUR),
+        part=Part(plan.name, made.solid, COLOUR),
         walls=part.walls,
         plate=Region(plan.plate.outline.outer, tuple(openings)),
         plan=plan,
         valid=True,
-        solids=count_solids(solid),
-        volume_mm3=volume_mm3(solid),
+        solids=count_solids(made.solid),
+        volume_mm3=made.volume_mm3,
         support=part.support,
         min_wall_to_wire_mm=gap,
-        size_mm=size_mm(solid),
+        size_mm=size_mm(made.solid),
     )
 
 

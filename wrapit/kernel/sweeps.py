@@ -27,6 +27,8 @@ LIFT_ROUNDING = 0.6  # of the diameter
 _LIFT_SAMPLES = 6  # in each rounding
 VOLUME_TOLERANCE = 1e-3
 FACE_SPANS = 4
+SPAN_RATIO = 2.0
+SMOOTH_MM = 1e-4  # knots inside a face are smoothed away within this, to leave surfaces with tangents
 TIGHT = 0.98  # a wire bent to less than its own radius can't be a valid solid; the bend itself is reported
 # Poles of a circle of radius 1 as four rational quadratic arcs.
 _RING = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], dtype=float)
@@ -44,7 +46,8 @@ def round_wire(
     """
     with guarded("making the round wire", name):
         spine = _Spine(centreline, tuple(lifts), diameter_mm)
-        solid = _capped([_skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))])
+        skins = [_skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
+        solid = _capped(skins, centreline.breaks)
         if spine.sharpest_per_mm * diameter_mm / 2 < TIGHT:
             _check(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm, name)
         return solid, spine.edge()
@@ -207,16 +210,34 @@ def _skin(spine: _Spine, span: int, radius: float) -> Any:
         level[0] = _mitre(spine, nodes[:1])
     if span < len(spine.spans) - 1:
         level[-1] = _mitre(spine, nodes[-1:])
-    # Change of the frame at each node, from both sides: a cubic's curvature may step at a break.
-    step = np.diff(nodes).min() * 1e-3
-    inside = np.clip(nodes, nodes[0] + 2 * step, nodes[-1] - 2 * step)
-    after, earlier = spine.frames(inside + step), spine.frames(inside - step, before=True)
-    level_change, upright_change = ((a - b) / (2 * step) for a, b in zip(after, earlier, strict=True))
+    # The frame's change on both sides of each node: at a break the curvature may jump, and with it the skin's speed.
+    steps = np.diff(nodes) * 1e-3
+    after = _changes(spine, nodes[:-1], nodes[:-1] + steps)
+    earlier = _changes(spine, nodes[1:] - steps, nodes[1:])
     columns = []
     for a, b in _RING * radius:
-        change = slopes + a * level_change + b * upright_change
-        columns.append(_hermite_poles(nodes, points + a * level + b * upright, change, change))
+        leaving, arriving = (
+            slope + a * level_change + b * upright_change
+            for slope, (level_change, upright_change) in ((slopes[:-1], after), (slopes[1:], earlier))
+        )
+        columns.append(_bezier_poles(nodes, points + a * level + b * upright, leaving, arriving))
     return _surface(np.stack(columns, axis=1), nodes)
+
+
+def _changes(spine: _Spine, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean rate of change of the frame's vectors between two parameters, (m, 3) each."""
+    first, last = spine.frames(low), spine.frames(high, before=True)
+    width = (high - low)[:, None]
+    return (last[0] - first[0]) / width, (last[1] - first[1]) / width
+
+
+def _bezier_poles(
+    nodes: FloatArray, points: FloatArray, leaving: FloatArray, arriving: FloatArray
+) -> FloatArray:
+    """Poles of cubics between the nodes (inner knots triple): derivatives after each node, and before the next."""
+    third = (np.diff(nodes) / 3)[:, None]
+    cubics = np.stack([points[:-1], points[:-1] + third * leaving, points[1:] - third * arriving], axis=1)
+    return np.concatenate([cubics.reshape(-1, 3), points[-1:]])
 
 
 def _mitre(spine: _Spine, node: FloatArray) -> FloatArray:
@@ -241,7 +262,7 @@ def _surface(poles: FloatArray, nodes: FloatArray) -> Any:
     along, along_counts = TColStd_Array1OfReal(1, len(nodes)), TColStd_Array1OfInteger(1, len(nodes))
     for index, u in enumerate(nodes.tolist(), start=1):
         along.SetValue(index, u)
-        along_counts.SetValue(index, 4 if index in (1, len(nodes)) else 2)
+        along_counts.SetValue(index, 4 if index in (1, len(nodes)) else 3)
     around, around_counts = TColStd_Array1OfReal(1, 5), TColStd_Array1OfInteger(1, 5)
     for index in range(1, 6):
         around.SetValue(index, float(index - 1))
@@ -251,11 +272,23 @@ def _surface(poles: FloatArray, nodes: FloatArray) -> Any:
     )
 
 
-def _capped(skins: Sequence[Any]) -> Any:
+def _face_cuts(knots: Sequence[float], breaks: FloatArray) -> list[float]:
+    """Where faces end: at breaks of the centreline, after a few spans, where spans change much in length."""
+    cuts, first = [knots[0]], 0
+    for index in range(1, len(knots) - 1):
+        widths = np.diff(knots[first : index + 2])
+        breaking = np.abs(breaks - knots[index]).min() < 1e-9 * knots[-1]
+        if breaking or index - first == FACE_SPANS or widths.max() > SPAN_RATIO * widths.min():
+            cuts.append(knots[index])
+            first = index
+    return [*cuts, knots[-1]]
+
+
+def _capped(skins: Sequence[Any], breaks: FloatArray) -> Any:
     """The solid inside the skins and two flat ends; the skins in quarters of a few spans.
 
-    The kernel integrates volumes over large spline faces with few points: over one face the volume of a
-    round wire came out wrong by 0.7 %, over these faces by 1e-5.
+    Programs integrate volumes over a face with few points: over one face, or over faces with long and short
+    spans, the volume of a round wire came out wrong by 0.7 %, over these faces by 1e-5.
     """
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,
@@ -271,10 +304,12 @@ def _capped(skins: Sequence[Any]) -> Any:
     sewing = BRepBuilderAPI_Sewing(1e-6)
     for skin in skins:
         knots = [skin.UKnot(i) for i in range(1, skin.NbUKnots() + 1)]
-        cuts = [*knots[:-1:FACE_SPANS], knots[-1]]
+        cuts = _face_cuts(knots, breaks)
         for (low, high), quarter in itertools.product(itertools.pairwise(cuts), range(4)):
             patch = skin.Copy()
             patch.Segment(low, high, float(quarter), float(quarter + 1))
+            for knot in range(patch.NbUKnots() - 1, 1, -1):
+                patch.RemoveUKnot(knot, 2, SMOOTH_MM)
             sewing.Add(BRepBuilderAPI_MakeFace(patch, 1e-7).Face())
     for circle in (skins[0].UIso(skins[0].UKnot(1)), skins[-1].UIso(skins[-1].UKnot(skins[-1].NbUKnots()))):
         rim = BRepBuilderAPI_MakeWire()

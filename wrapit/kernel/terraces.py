@@ -24,10 +24,22 @@ VOLUME_TOLERANCE = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Terrace:
-    """A region whose surface lies at `z_mm` instead of the plate's top: higher is a wall, lower a pocket."""
+    """A region whose surface lies at `z_mm` instead of the ground's: higher is a wall, lower a pocket.
+
+    `upon` are terraces that stand on it, inside its outline without touching it.
+    """
 
     region: Region
     z_mm: float
+    upon: tuple[Terrace, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Terraced:
+    """The solid and its volume as the kernel measures it."""
+
+    solid: Any
+    volume_mm3: float
 
 
 def terraced_solid(
@@ -37,7 +49,7 @@ def terraced_solid(
     terraces: Sequence[Terrace],
     through: Sequence[Loop],
     where: str,
-) -> Any:
+) -> Terraced:
     """The solid between bottom and top inside the outline, with terraces and holes that don't touch.
 
     Raises KernelError naming `where` if the outcome is not one valid solid with the volume that the
@@ -47,6 +59,8 @@ def terraced_solid(
         solid = _solid(outline, bottom_mm, top_mm, terraces, through)
         expected = terraced_volume_mm3(outline, bottom_mm, top_mm, terraces, through)
         got = volume_mm3(solid)
+        if got < 0:  # the shell came out facing inwards
+            solid, got = solid.Reversed(), -got
         if not is_valid(solid):
             raise KernelError("the solid is not valid", where, "change the size or the clearance a little")
         if abs(got - expected) > VOLUME_TOLERANCE * expected:
@@ -55,7 +69,7 @@ def terraced_solid(
                 where,
                 "change the size or the clearance a little",
             )
-    return solid
+    return Terraced(solid, got)
 
 
 def terraced_volume_mm3(
@@ -67,18 +81,22 @@ def terraced_volume_mm3(
 ) -> float:
     """The volume by exact areas and heights."""
     area = abs(loop_area_mm2(outline)) - sum(abs(loop_area_mm2(hole)) for hole in through)
-    steps = sum(region_area_mm2(t.region) * (t.z_mm - top_mm) for t in terraces)
-    return area * (top_mm - bottom_mm) + steps
+    return area * (top_mm - bottom_mm) + _raised_mm3(terraces, top_mm)
+
+
+def _raised_mm3(terraces: Sequence[Terrace], ground_mm: float) -> float:
+    return sum(
+        region_area_mm2(each.region) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm)
+        for each in terraces
+    )
 
 
 def _solid(
     outline: Loop, bottom: float, top: float, terraces: Sequence[Terrace], through: Sequence[Loop]
 ) -> Any:
-    faces: list[Any] = []
     rim = turned(outline, counter_clockwise=True)
     floor_rim = wire_of(loop_edges(rim, bottom))
-    sides, top_rim = _upright(floor_rim, top - bottom)
-    faces += sides
+    faces, top_rim = _upright(floor_rim, top - bottom)
     drains, voids = [], []
     for hole in through:
         floor_hole = wire_of(loop_edges(turned(hole, counter_clockwise=False), bottom))
@@ -87,24 +105,32 @@ def _solid(
         drains.append(floor_hole)
         voids.append((hole, top_hole))
     faces.append(plane_face(floor_rim, drains, bottom).Reversed())
-    islands = [(outline, top_rim)]
+    faces += _tier((outline, top_rim), voids, top, terraces)
+    return _closed(faces)
+
+
+def _tier(
+    shore: tuple[Loop, Any], voids: list[tuple[Loop, Any]], z: float, terraces: Sequence[Terrace]
+) -> list[Any]:
+    """The faces from one level up: its ground between shore and voids, and everything that stands on it."""
+    faces: list[Any] = []
+    islands = [shore]
     for terrace in terraces:
         outer = turned(terrace.region.outer, counter_clockwise=True)
-        foot = wire_of(loop_edges(outer, top))
-        sides, head = _upright(foot, terrace.z_mm - top)
+        foot = wire_of(loop_edges(outer, z))
+        sides, head = _upright(foot, terrace.z_mm - z)
         faces += sides
         voids.append((outer, foot.Reversed()))
-        heads = []
+        wells = []
         for hole in terrace.region.holes:
             inner = turned(hole, counter_clockwise=False)
-            inner_foot = wire_of(loop_edges(inner, top))
-            sides, inner_head = _upright(inner_foot, terrace.z_mm - top)
+            inner_foot = wire_of(loop_edges(inner, z))
+            sides, inner_head = _upright(inner_foot, terrace.z_mm - z)
             faces += sides
-            heads.append(inner_head)
+            wells.append((inner, inner_head))
             islands.append((inner, inner_foot.Reversed()))
-        faces.append(plane_face(head, heads, terrace.z_mm))
-    faces += _ground(islands, voids, top)
-    return _closed(faces)
+        faces += _tier((outer, head), wells, terrace.z_mm, terrace.upon)
+    return faces + _ground(islands, voids, z)
 
 
 def _upright(wire: Any, height: float) -> tuple[list[Any], Any]:
@@ -125,7 +151,7 @@ def _upright(wire: Any, height: float) -> tuple[list[Any], Any]:
 
 
 def _ground(islands: list[tuple[Loop, Any]], voids: list[tuple[Loop, Any]], z: float) -> list[Any]:
-    """The plate's top: a face inside the outline and in each ring of a terrace, less what stands there."""
+    """One level: a face inside its shore and in each ring of a terrace, less what stands there."""
     from OCP.TopoDS import TopoDS
     from shapely import Point, Polygon
 
@@ -145,7 +171,6 @@ def _ground(islands: list[tuple[Loop, Any]], voids: list[tuple[Loop, Any]], z: f
 def _closed(faces: list[Any]) -> Any:
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
-    from OCP.BRepLib import BRepLib
     from OCP.ShapeFix import ShapeFix_Shell
     from OCP.TopoDS import TopoDS_Shell
 
@@ -158,6 +183,4 @@ def _closed(faces: list[Any]) -> Any:
     fixer.FixFaceOrientation(shell)
     closed = fixer.Shell()
     closed.Closed(True)
-    solid = BRepBuilderAPI_MakeSolid(closed).Solid()
-    BRepLib.OrientClosedSolid_s(solid)
-    return solid
+    return BRepBuilderAPI_MakeSolid(closed).Solid()
