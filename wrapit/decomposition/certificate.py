@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.local import ENUMERATED_DEGREE, LocalCosts, Matching
+from wrapit.decomposition.local import ENUMERATED_DEGREE, LocalCosts, Matching, matchings_of
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.spanning import GROUND, Link, Sets, by_share, cheapest_opening, spanning_tree
 
@@ -41,11 +42,8 @@ def certify(graph: Graph, costs: LocalCosts) -> Certificate:
         weight, tree = spanning_tree(links, rings)
         _apply_tree(graph, mate, [branch.link for branch in tree])
     else:
-        weight, opening = cheapest_opening(links, rings)
-        _apply_tree(graph, mate, [opening])
-        nodes, rings = ring_of(mate)
-        others = [link for link in _links(graph, costs, mate, nodes) if link.junction != opening.junction]
-        _apply_tree(graph, mate, [branch.link for branch in spanning_tree(by_share(others), rings)[1]])
+        weight, opening, tree = cheapest_opening(links, rings)
+        _apply_tree(graph, mate, [opening, *(branch.link for branch in tree)])
     open_rings(graph, costs, mate)
     return Certificate(total + weight, mate)
 
@@ -103,27 +101,35 @@ def _links(graph: Graph, costs: LocalCosts, mate: Sequence[int], nodes: Sequence
             everything = tuple(sorted({GROUND, *(nodes[h] for h in ends)}))
             yield Link(costs.second_loss(junction), junction, None, (everything,))
             continue
-        cheapest: dict[tuple[tuple[int, ...], ...], tuple[float, Matching]] = {}
-        for cost, pairs in costs.matchings(junction):
-            groups = _linked(ends, mate, nodes, pairs)
-            if groups and (groups not in cheapest or (cost, pairs) < cheapest[groups]):
-                cheapest[groups] = (cost, pairs)
-        for groups, (cost, pairs) in cheapest.items():
-            yield Link(cost - here, junction, pairs, groups)
+        back = sorted({GROUND, *(nodes[h] for h in ends)})
+        labels = tuple(back.index(nodes[h]) for h in ends)
+        listed = costs.listed(junction)
+        for groups, indices in _ways(labels, tuple(mate[h] != NO_MATE for h in ends)):
+            index = min(indices, key=listed.__getitem__)
+            if listed[index] < math.inf:
+                named = tuple(tuple(back[label] for label in group) for group in groups)
+                yield Link(listed[index] - here, junction, costs.matching(junction, index), named)
 
 
-def _linked(
-    ends: Sequence[int], mate: Sequence[int], nodes: Sequence[int], pairs: Matching
-) -> tuple[tuple[int, ...], ...]:
-    """Groups of nodes that a matching links: where it joins half-edges, or newly leaves one free."""
-    sets = Sets()
-    left = {h for h in ends if mate[h] != NO_MATE}
-    for a, b in pairs:
-        sets.merge(nodes[a], nodes[b])
-        left -= {a, b}
-    for h in left:
-        sets.merge(nodes[h], GROUND)
-    return sets.groups()
+@cache
+def _ways(
+    labels: tuple[int, ...], matched: tuple[bool, ...]
+) -> tuple[tuple[tuple[tuple[int, ...], ...], tuple[int, ...]], ...]:
+    """The ways to link nodes at a junction, each with the matchings that do it.
+
+    `labels` are the nodes of its half-edges, `matched` says which have mates now. A matching links
+    where it joins half-edges, and to the ground where it newly leaves one free.
+    """
+    ways: dict[tuple[tuple[int, ...], ...], list[int]] = {}
+    for index, pairs in enumerate(matchings_of(len(labels))):
+        sets = Sets((labels[i], labels[j]) for i, j in pairs)
+        chosen = {i for pair in pairs for i in pair}
+        for i, has_mate in enumerate(matched):
+            if has_mate and i not in chosen:
+                sets.merge(labels[i], GROUND)
+        if groups := sets.groups():
+            ways.setdefault(groups, []).append(index)
+    return tuple((groups, tuple(indices)) for groups, indices in ways.items())
 
 
 def _apply_tree(graph: Graph, mate: list[int], tree: Iterable[Link]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import cache
 
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Problem
@@ -19,6 +20,26 @@ ENUMERATED_DEGREE = 8
 """Up to this degree all matchings at a junction are listed (764 of them)."""
 _QUICK_DEGREE = 5
 _SOLVED_DEGREE = 15
+
+
+@cache
+def matchings_of(degree: int) -> tuple[Matching, ...]:
+    """Every matching of 0 … degree − 1, as sorted pairs; the empty one first.
+
+    >>> matchings_of(3)
+    ((), ((1, 2),), ((0, 1),), ((0, 2),))
+    """
+
+    def extended(left: Matching, rest: tuple[int, ...]) -> Iterator[Matching]:
+        if not rest:
+            yield left
+            return
+        i, others = rest[0], rest[1:]
+        yield from extended(left, others)
+        for j in others:
+            yield from extended((*left, (i, j)), tuple(k for k in others if k != j))
+
+    return tuple(extended((), tuple(range(degree))))
 
 
 class LocalCosts:
@@ -43,6 +64,7 @@ class LocalCosts:
         self.free = [0.0] * (2 * graph.segments)
         self.loose: dict[int, tuple[int, float]] = {}
         self._junction_of = graph.junction_of
+        self._listed: dict[int, list[float]] = {}
         self._best: dict[int, tuple[float, Matching]] = {}
 
     def best(self, junction: int) -> tuple[float, Matching]:
@@ -50,7 +72,9 @@ class LocalCosts:
         if junction not in self._best:
             ends = self.incident[junction]
             if len(ends) <= _QUICK_DEGREE:
-                self._best[junction] = min(self.matchings(junction))
+                costs = self.listed(junction)
+                index = min(range(len(costs)), key=costs.__getitem__)
+                self._best[junction] = (costs[index], self.matching(junction, index))
             elif len(ends) <= _SOLVED_DEGREE:
                 self._best[junction] = self._by_subsets(ends)
             else:
@@ -80,7 +104,14 @@ class LocalCosts:
 
     def matchings(self, junction: int) -> Iterator[tuple[float, Matching]]:
         """Every matching at a junction with its cost."""
-        return self._extended(self.incident[junction], 0.0, ())
+        for index, cost in enumerate(self.listed(junction)):
+            if cost < math.inf:
+                yield cost, self.matching(junction, index)
+
+    def matching(self, junction: int, index: int) -> Matching:
+        """The half-edges of one of `matchings_of(degree)` at a junction."""
+        ends = self.incident[junction]
+        return tuple((ends[i], ends[j]) for i, j in matchings_of(len(ends))[index])
 
     def penalise_end(self, h: int, cost: float) -> None:
         """A wire end at h costs `cost` more, because a wire would hang there."""
@@ -117,16 +148,24 @@ class LocalCosts:
 
     def _forget(self, h: int) -> None:
         self._best.pop(self._junction_of[h], None)
+        self._listed.pop(self._junction_of[h], None)
 
-    def _extended(
-        self, left: tuple[int, ...], cost: float, pairs: Matching
-    ) -> Iterator[tuple[float, Matching]]:
-        if not left:
-            yield cost, tuple(sorted(pairs))
-            return
-        for step, used, made in self._choices(left, None):
-            rest = tuple(h for h in left if h not in used)
-            yield from self._extended(rest, cost + step, pairs + made)
+    def listed(self, junction: int) -> list[float]:
+        """Cost of each of `matchings_of(degree)` at a junction, infinite where forbidden."""
+        if junction not in self._listed:
+            ends, pair, free = self.incident[junction], self.pair, self.free
+            base = sum(free[h] for h in ends)
+            gain = [[pair[a].get(b, math.inf) - free[a] - free[b] for b in ends] for a in ends]
+            costs = [base + sum(gain[i][j] for i, j in pairs) for pairs in matchings_of(len(ends))]
+            for h in ends:
+                if h in self.loose:
+                    other, both = self.loose[h]
+                    i, j = ends.index(h), ends.index(other)
+                    for index, pairs in enumerate(matchings_of(len(ends))):
+                        if not any(i in chosen or j in chosen for chosen in pairs):
+                            costs[index] += both
+            self._listed[junction] = costs
+        return self._listed[junction]
 
     def _by_subsets(self, ends: tuple[int, ...], without: Pair | None = None) -> tuple[float, Matching]:
         """Dynamic programme over the half-edges that are still to be decided."""

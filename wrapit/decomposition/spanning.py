@@ -107,8 +107,10 @@ def spanning_tree(
     return weight, tree
 
 
-def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link]:
+def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, list[Branch]]:
     """A drawing of rings only has to be opened somewhere: the least bound over the places to do it.
+
+    Returns the bound, the link that opens, and the tree that links the rest.
 
     The junction that opens pays its whole loss, not the share that the spanning tree counts.
     """
@@ -121,13 +123,13 @@ def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link]:
     ]
     if not openings:
         raise ValueError("no junction of a drawing of rings can be opened")
-    best: tuple[float, Link] | None = None
+    best: tuple[float, Link, list[Branch]] | None = None
     for optimistic, link in sorted(openings, key=lambda opening: (opening[0], opening[1].junction)):
         if best is not None and optimistic > best[0] - 1e-12:
             break
-        bound = link.loss + spanning_tree(links, rings, link)[0]
-        if best is None or bound < best[0] - 1e-12:
-            best = (bound, link)
+        rest, tree = spanning_tree(links, rings, link)
+        if best is None or link.loss + rest < best[0] - 1e-12:
+            best = (link.loss + rest, link, tree)
     assert best is not None
     return best
 

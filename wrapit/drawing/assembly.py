@@ -9,7 +9,6 @@ import numpy as np
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
 from wrapit.drawing.network import Change
 from wrapit.geometry import BezierChain, FloatArray
-from wrapit.geometry.bezier import evaluate
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,20 +38,17 @@ class Placement:
 def bounds(curves: list[BezierChain]) -> tuple[FloatArray, FloatArray]:
     """Exact corners of the box around curves, (2,) each."""
     cubics = np.concatenate([curve.points for curve in curves])
-    places = [cubics.reshape(-1, 4, 2)[:, [0, 3]].reshape(-1, 2)]
     d = np.diff(cubics, axis=1)
     a, b, c = d[:, 0] - 2 * d[:, 1] + d[:, 2], 2 * (d[:, 1] - d[:, 0]), d[:, 0]
     root = np.sqrt(np.maximum(b * b - 4 * a * c, 0))
     with np.errstate(divide="ignore", invalid="ignore"):
-        for t in ((-b - root) / (2 * a), (-b + root) / (2 * a), -c / b):
-            at = np.nan_to_num(np.clip(t, 0, 1), nan=0.0)
-            for axis in (0, 1):
-                places.append(
-                    np.stack(
-                        [evaluate(q[None], u[None])[0, 0] for q, u in zip(cubics, at[:, axis], strict=True)]
-                    )
-                )
-    points = np.concatenate(places)
+        turns = np.stack([(-b - root) / (2 * a), (-b + root) / (2 * a), -c / b])
+    # Each coordinate at its own turning points, which is all that its least and greatest value need.
+    t = np.nan_to_num(np.clip(turns, 0, 1), nan=0.0)
+    s = 1 - t
+    p = cubics.transpose(1, 0, 2)
+    inner = s**3 * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t**3 * p[3]
+    points = np.concatenate([cubics[:, 0], cubics[:, 3], inner.reshape(-1, 2)])
     return points.min(axis=0), points.max(axis=0)
 
 

@@ -56,7 +56,7 @@ def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
         points = np.concatenate(paths)
         bounds = np.cumsum([len(path) for path in paths])[:-1]
         normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
-        left, right = _edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / 20))
+        left, right = _edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / 14))
         width = left + right
         shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
         points = points + np.nan_to_num(shift)[:, None] * normals

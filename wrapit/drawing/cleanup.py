@@ -63,20 +63,24 @@ def _prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
 
 def contract_short(net: Network, radius: Radii, share: float) -> None:
     """Makes one node of two whose strand is shorter than `share` times the sum of their half widths."""
-    while True:
+    merged = True
+    while merged:
         short = []
+        reach = {node: radius(point) for node, point in net.nodes.items() if net.degree(node) >= 3}
         for strand, s in net.strands.items():
-            if s.start == s.end or min(net.degree(s.start), net.degree(s.end)) < 3:
+            if s.start == s.end or s.start not in reach or s.end not in reach:
                 continue
-            length = net.length(strand)
-            if length < share * (radius(net.nodes[s.start]) + radius(net.nodes[s.end])):
+            limit = share * (reach[s.start] + reach[s.end])
+            if len(s.points) <= limit and (length := net.length(strand)) < limit:
                 short.append((length, strand))
-        if not short:
-            return
-        _, strand = min(short)
-        s = net.strands[strand]
-        middle = (net.nodes[s.start] + net.nodes[s.end]) / 2
-        net.merge([s.start, s.end], middle, [strand])
+        merged, touched = False, set[int]()
+        for _, strand in sorted(short):
+            s = net.strands[strand]
+            if s.start in touched or s.end in touched:
+                continue
+            touched |= {s.start, s.end}
+            net.merge([s.start, s.end], (net.nodes[s.start] + net.nodes[s.end]) / 2, [strand])
+            merged = True
 
 
 def _drop_small_loops(net: Network, width_px: float) -> None:

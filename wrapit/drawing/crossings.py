@@ -21,6 +21,7 @@ _LONGEST = 30.0
 _SHORT = 2.5
 _MISFIT = 0.28
 _BETTER = 0.6
+_EXCESS = 0.15
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
 
@@ -42,7 +43,9 @@ def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> Non
         if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
             continue
         line = lines[strand]
-        if line.length > _LONGEST * width_px:
+        if line.length > _LONGEST * width_px or (
+            line.length > _SHORT * width_px and _excess(line, width_px) < _EXCESS
+        ):
             continue
         crossing = _explained(net, lines, strand, width_px)
         if crossing is not None:
@@ -55,6 +58,12 @@ def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> Non
         taken |= {s.start, s.end}
         node = net.merge([s.start, s.end], crossing.at, [crossing.strand])
         net.through[node] = crossing.pairs
+
+
+def _excess(line: Line, width_px: float) -> float:
+    """How much wider (stroke widths) the ink along a line is than one stroke, on average."""
+    width = np.where(np.isfinite(line.width), np.minimum(line.width, 2 * width_px), 2 * width_px)
+    return float(width.mean()) / width_px - 1
 
 
 def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> _Crossing | None:

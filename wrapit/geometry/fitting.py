@@ -17,6 +17,7 @@ from wrapit.geometry.arrays import FloatArray, IntArray, unit
 from wrapit.geometry.bezier import BezierChain
 
 _ITERATIONS = 5
+_HOPELESS = 6.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,8 +193,15 @@ def _solve(course: _Course, pieces: _Pieces, tolerance: float) -> tuple[FloatArr
         cubics[open_], error[open_] = found, np.sqrt(peak)
         # Even a piece that is close already gains from one step of better parameters.
         more = (error[open_] > tolerance) | (iteration == 0)
-        if iteration == _ITERATIONS - 1 or not more.any():
-            worst[open_] = _peaks(squared, index, piece, starts, pieces)
+        # Better parameters never save a piece that misses by this much (Schneider's rule).
+        hopeless = more & (error[open_] > _HOPELESS * tolerance)
+        if hopeless.any():
+            worst[open_[hopeless]] = _peaks(squared, index, piece, starts, pieces)[hopeless]
+            more &= ~hopeless
+        if not more.any():
+            break
+        if iteration == _ITERATIONS - 1:
+            worst[open_[more]] = _peaks(squared, index, piece, starts, pieces)[more]
             break
         # Newton's step towards the foot of each point.
         top = (away * first).sum(axis=1)

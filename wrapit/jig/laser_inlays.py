@@ -103,9 +103,12 @@ def _inlay(number: int, wall: Region, config: PlateConfig, offset: Offset) -> tu
         inner ones. Each is derived from the other, so that what one can't have, the other hasn't.
         """
         apart_mm = config.kerf - fit_mm
-        solid = moved(moved(loop, hollow_mm, what), apart_mm, what) if fit_mm < half_mm else None
-        solid = moved(loop, solid_mm, what) if solid is None else solid
-        return moved(solid, -apart_mm, what), solid
+        if fit_mm >= half_mm:
+            solid = moved(loop, solid_mm, what)
+            return moved(solid, -apart_mm, what), solid
+        hollow = moved(loop, hollow_mm, what)
+        solid = moved(hollow, apart_mm, what)
+        return (hollow if _comes_back(hollow, apart_mm) else moved(solid, -apart_mm, what)), solid
 
     pocket_cut, outer = mated(wall.outer, fit_mm - half_mm, half_mm, "this wall")
     rings = [
@@ -127,6 +130,15 @@ def _inlay(number: int, wall: Region, config: PlateConfig, offset: Offset) -> tu
         tuple(island for _, island in rings),
     )
     return inlay, all(exact)
+
+
+def _comes_back(loop: Loop, distance_mm: float) -> bool:
+    """Whether the outline is the same after it has gone outward and inward again (no inner corners)."""
+    from shapely import Polygon
+
+    flat = Polygon(loop.sampled(_FLAT_MM / 10))
+    back = flat.buffer(distance_mm, quad_segs=32).buffer(-distance_mm, quad_segs=32)
+    return bool(abs(back.area - flat.area) < 2e-5 * flat.length)
 
 
 def _finished(cut: Loop, half_mm: float) -> Loop:
