@@ -78,6 +78,8 @@ def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: floa
         if any(a.strand == b.strand and a.end == b.end for a, b in pairs):
             continue
         turns = [turn(a, b) for a, b in pairs]
+        if max(turns) > _TURN_SEEN_RAD:
+            continue
         curves = [through(a, b) for a, b in pairs]
         crossed, together = _misfits(line, _apart(curves, line), width_px)
         cost = sum(value**2 for value in turns)
@@ -122,15 +124,16 @@ def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_
 
 
 def _apart(curves: list[Through], line: Line) -> FloatArray:
-    """Signed distance (n,) between two curves, across each point of the line between the forks."""
-    tangent = unit(np.gradient(line.points, axis=0))
+    """Signed distance between two curves, across every other point of the line between the forks."""
+    tangent = unit(np.gradient(line.points, axis=0))[::2]
     normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
+    points = line.points[::2]
     offsets = []
     for curve in curves:
         reach = 0.75 * curve.gap + line.length / 2
-        s = np.linspace(-reach, reach, 81)
+        s = np.linspace(-reach, reach, 61)
         places = (s[:, None] ** np.arange(len(curve.coefficients))) @ curve.coefficients
-        difference = places[None] - line.points[:, None]
+        difference = places[None] - points[:, None]
         along = np.abs((difference * tangent[:, None]).sum(axis=2))
         nearest = np.argmin(along + 0.2 * np.linalg.norm(difference, axis=2), axis=1)
         offsets.append((difference[np.arange(len(nearest)), nearest] * normal).sum(axis=1))
@@ -139,9 +142,10 @@ def _apart(curves: list[Through], line: Line) -> FloatArray:
 
 def _misfits(line: Line, apart: FloatArray, width_px: float) -> tuple[float, float]:
     """How far (stroke widths) the ink's width is from that of two crossing strokes, and from one's."""
-    known = np.isfinite(line.width)
+    width = line.width[::2]
+    known = np.isfinite(width)
     if not known.any():
         return 0.0, 0.0
-    measured = np.minimum(line.width[known], 2 * width_px) / width_px
+    measured = np.minimum(width[known], 2 * width_px) / width_px
     crossed = np.minimum(1 + np.abs(apart[known]) / width_px, 2.0)
     return float(np.abs(measured - crossed).mean()), float(np.abs(measured - 1).mean())

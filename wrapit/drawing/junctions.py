@@ -53,8 +53,11 @@ class Arm:
 
     def at(self, along: float) -> tuple[FloatArray, FloatArray]:
         """Place and outward unit direction on the model."""
-        a, b, c = self.model
-        return a + along * (b + along * c), unit(b + 2 * along * c)
+        return _horner(self._terms, along)
+
+    @cached_property
+    def _terms(self) -> list[list[float]]:
+        return self.model.tolist()
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +69,20 @@ class Ending:
     cut: int
 
 
+def _horner(terms: list[list[float]], along: float) -> tuple[FloatArray, FloatArray]:
+    """Place and unit direction of a parametric polynomial; plain numbers, as arrays of two are slow."""
+    x = y = dx = dy = 0.0
+    for a, b in reversed(terms):
+        dx, dy = dx * along + x, dy * along + y
+        x, y = x * along + a, y * along + b
+    norm = math.hypot(dx, dy) or 1.0
+    return np.array([x, y]), np.array([dx / norm, dy / norm])
+
+
 def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray:
     """Least-squares coefficients (degree + 1, 2), lowest first."""
     scale = max(float(np.abs(along).max()), 1e-9)
-    powers = np.vander(along / scale, degree + 1, increasing=True)
+    powers = (along / scale)[:, None] ** np.arange(degree + 1)
     normal = powers.T @ powers + 1e-12 * np.eye(degree + 1)
     solution = np.linalg.solve(normal, powers.T @ points)
     return solution / scale ** np.arange(degree + 1)[:, None]
@@ -159,9 +172,11 @@ class Through:
 
     def at(self, along: float) -> tuple[FloatArray, FloatArray]:
         """Place and unit direction (from the first arm to the second)."""
-        powers = along ** np.arange(len(self.coefficients))
-        slopes = np.arange(1, len(self.coefficients)) * powers[:-1]
-        return powers @ self.coefficients, unit(slopes @ self.coefficients[1:])
+        return _horner(self._terms, along)
+
+    @cached_property
+    def _terms(self) -> list[list[float]]:
+        return self.coefficients.tolist()
 
     def foot(self, point: FloatArray, along: float) -> float:
         """Where the curve comes nearest to a point, starting the search at `along`."""
@@ -198,7 +213,7 @@ def place(
     feet = [0.0] * len(curves)
     # Two curves fix the point, even where they cross at an acute angle.
     prior = 0.01 if len(curves) < 2 else 1e-4
-    for _ in range(4):
+    for _ in range(3):
         matrix, right = prior * np.eye(2), prior * point
         for k, curve in enumerate(curves):
             feet[k] = curve.foot(point, feet[k])

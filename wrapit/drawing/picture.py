@@ -11,7 +11,7 @@ from wrapit.config import TracingConfig
 from wrapit.drawing.image import GreyImage, load_grey
 from wrapit.drawing.ink import Ink, find_ink
 from wrapit.drawing.inspection import refuse_crowd
-from wrapit.drawing.skeleton import Skeleton, thin
+from wrapit.drawing.skeleton import Skeleton, thin_within
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
@@ -62,7 +62,7 @@ def read_picture(path: Path, tracing: TracingConfig) -> Picture:
 def _skeleton(ink: Ink, path: Path) -> Skeleton:
     if not ink.mask.any():
         raise DrawingError("the picture holds no lines", str(path), "draw at least one line")
-    skeleton = thin(ink.mask)
+    skeleton = thin_within(ink.mask)
     refuse_crowd(ink, skeleton, str(path))
     return skeleton
 

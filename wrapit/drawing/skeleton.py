@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,16 @@ class Skeleton:
     pairs: IntArray
     distance: FloatArray
     width_px: float
+
+
+def thin_within(mask: BoolImage) -> Skeleton:
+    """The skeleton of the ink, worked out only in the box around it."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    if not len(rows):
+        raise ValueError("there is no ink")
+    top, left = int(rows[0]), int(columns[0])
+    skeleton = thin(np.ascontiguousarray(mask[top : rows[-1] + 1, left : columns[-1] + 1]))
+    return replace(skeleton, pixels=skeleton.pixels + [left, top])
 
 
 def thin(mask: BoolImage) -> Skeleton:

@@ -132,11 +132,14 @@ def _split_until_close(course: _Course, pieces: _Pieces, tolerance: float) -> _P
 def _merged(course: _Course, pieces: _Pieces, tolerance: float) -> _Pieces:
     """Joins neighbours that one Bézier fits too, until none is left."""
     parity, idle = 0, 0
+    failed: set[tuple[int, int]] = set()
     while idle < 2 and len(pieces) > 1:
         same = np.searchsorted(course.lasts, pieces.last)
         rank = np.arange(len(pieces)) - np.searchsorted(same, same)
         left = np.flatnonzero((same[:-1] == same[1:]) & (rank[:-1] % 2 == parity))
         parity = 1 - parity
+        spans = zip(pieces.first[left].tolist(), pieces.last[left + 1].tolist(), strict=True)
+        left = left[np.array([span not in failed for span in spans], dtype=bool)]
         if not len(left):
             idle += 1
             continue
@@ -145,6 +148,7 @@ def _merged(course: _Course, pieces: _Pieces, tolerance: float) -> _Pieces:
         )
         cubics, error, _ = _solve(course, trial, tolerance)
         good = error <= tolerance
+        failed |= set(zip(trial.first[~good].tolist(), trial.last[~good].tolist(), strict=True))
         idle = 0 if good.any() else idle + 1
         rest = np.ones(len(pieces), dtype=bool)
         rest[left[good]] = rest[left[good] + 1] = False
