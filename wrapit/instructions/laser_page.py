@@ -42,14 +42,23 @@ class MapPart:
 
 
 @dataclass(frozen=True)
+class GluedGroup:
+    """Parts of one role that are glued into the same place; `inside` is empty for the pocket plate."""
+
+    role: str
+    inside: str
+    labels: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class StackPage:
-    """How one stack is glued: `pieces` in the order of gluing, each with the ring it lies in (or none)."""
+    """How one stack is glued, group by group from the outside to the inside."""
 
     jig: str
     bottom: str
     plate: str
     copies: int
-    pieces: tuple[tuple[str, str, str], ...]
+    groups: tuple[GluedGroup, ...]
     view_box: str
     parts: tuple[MapPart, ...]
     wires: tuple[tuple[str, str], ...]
@@ -95,7 +104,7 @@ def _stack(jig: str, parts: Sequence[LaserPart], wires: Sequence[Wire]) -> Stack
         bottom=bottom.label,
         plate=plate.label,
         copies=max(part.copies for part in parts),
-        pieces=_gluing_order(inlays),
+        groups=_gluing_order(inlays),
         view_box=frame.view_box,
         parts=tuple(_on_map(part, frame, text_mm) for part in (plate, *inlays)),
         wires=tuple(
@@ -109,8 +118,8 @@ def _within(wire: Wire, plate: LaserPart) -> bool:
     return bool((wire.ends >= low).all() and (wire.ends <= high).all())
 
 
-def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[tuple[str, str, str], ...]:
-    """(label, role, label of the ring or island that it lies in): from the outside to the inside."""
+def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[GluedGroup, ...]:
+    """Parts that lie in nothing but the plate first, then those in their rings, and so on."""
     from shapely import Polygon
 
     filled = {part.label: Polygon(part.shape.outer.sampled(0.02)) for part in inlays}
@@ -125,9 +134,13 @@ def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[tuple[str, str, str], ..
         for part in inlays
     }
     ordered = sorted(inlays, key=lambda part: len(inside[part.label]))
+
+    def place(part: LaserPart) -> tuple[str, str]:
+        return part.role, min(inside[part.label], key=lambda label: filled[label].area, default="")
+
     return tuple(
-        (part.label, part.role, min(inside[part.label], key=lambda label: filled[label].area, default=""))
-        for part in ordered
+        GluedGroup(role, where, tuple(part.label for part in parts))
+        for (role, where), parts in itertools.groupby(ordered, place)
     )
 
 

@@ -16,6 +16,8 @@ from wrapit.jig.model import JigSet
 from wrapit.materials import METALS
 from wrapit.wires.model import Wire
 
+LEAST_SPRINGY_RADIUS_MM = 5.0
+
 
 def plan_guide(
     solution: Solution,
@@ -139,11 +141,14 @@ def _overbend(wire: Wire, wire_config: WireConfig) -> str:
     if curvature <= 0:
         return ""
     loss = METALS[wire_config.metal].springback_per_mm(wire.diameter_mm, wire_config.temper)
-    radius_mm = min(1 / curvature, 50.0)
-    degrees = math.degrees(math.pi / 2 * loss * radius_mm)
+    # Tighter bends spring back less than a hand can tell.
+    radius_mm = min(max(1 / curvature, LEAST_SPRINGY_RADIUS_MM), 50.0)
+    degrees = round(math.degrees(math.pi / 2 * loss * radius_mm))
+    if degrees < 1:
+        return ""
     return (
-        f"The metal springs back a little: bend a right angle with a radius of {radius_mm:.1f} mm "
-        f"about {max(1, round(degrees))}° further than you need."
+        f"The metal springs back a little: bend a right angle with a radius of {radius_mm:.0f} mm "
+        f"about {degrees}° further than you need."
     )
 
 
