@@ -109,6 +109,21 @@ def test_hairpin_without_room_is_reported() -> None:
     assert "radius" in finding.message
 
 
+def test_a_small_kink_inside_a_segment_is_widened() -> None:
+    line = np.array([[0, 0], [10, 0], [10.4, 0.3], [10.8, 0], [20, 0]], float)
+    handles = np.array([[1, 0], [1, 0], [1, 0.2], [1, 0], [1, 0]]) * 0.12
+    kinked = BezierChain(
+        np.array(
+            [[line[i], line[i] + handles[i], line[i + 1] - handles[i + 1], line[i + 1]] for i in range(4)]
+        )
+    )
+    drawing = drawing_of([(0, 0), (20, 0)], [(0, 1, kinked)])
+    (wire,), findings = draw_wires(solution_of(drawing, [[(0, False)]]), CONFIG)
+    assert wire.min_bend_radius_mm >= 0.999 * wire.diameter_mm
+    assert 0 < wire.max_deviation_from_drawing_mm <= 0.35
+    assert not [finding for finding in findings if finding.code == "tight-bend"]
+
+
 def test_circle_is_one_turn_to_the_left() -> None:
     drawing = drawing_of([(5, 0)], [(0, 0, circle(5))])
     (wire,), _ = draw_wires(solution_of(drawing, [[(0, False)]], closed=True), CONFIG)

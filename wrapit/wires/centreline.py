@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 from collections.abc import Sequence
@@ -9,11 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.geometry import BezierChain, FloatArray, straight, unit
-from wrapit.geometry.arclength import cut
+from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
+from wrapit.geometry.arclength import ArcLength, cut
+from wrapit.wires.blends import NO_BLEND, Blend, best_blend
 
 SMOOTH_BEND_RAD = 1e-4  # smaller bends are noise: turning the handles moves the curve by less than a micron
-MIN_BLEND_MM = 0.3  # shorter blends make slivers in the jig
+RELAX_RADII = 4.0  # how far beyond a tight span a wire may leave the drawing to widen it
 MAX_TRIM = 0.45  # share of a segment that one corner may use up
 FOLD_RAD = math.radians(175)  # a wire laid back over itself is folded, not rounded
 
@@ -35,16 +37,6 @@ class Joined:
     chain: BezierChain
     spans_mm: tuple[tuple[float, float], ...]
     corners: tuple[Corner, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class _Blend:
-    """The curve that replaces the last and first `trim_mm` of two neighbours."""
-
-    curves: tuple[BezierChain, ...]
-    trim_mm: float
-    radius_mm: float
-    deviation_mm: float
 
 
 def join(curves: Sequence[BezierChain], min_radius_mm: float) -> Joined:
@@ -74,7 +66,7 @@ def join(curves: Sequence[BezierChain], min_radius_mm: float) -> Joined:
     bounds_mm = [*joints_mm, at_mm]
     firsts = itertools.accumulate((len(group) for group in split), initial=0)
     spans_mm = tuple(itertools.pairwise(bounds_mm[first] for first in firsts))
-    return Joined(_connected(chain), spans_mm, corners)
+    return _relaxed(Joined(_connected(chain), spans_mm, corners), min_radius_mm)
 
 
 def bend_rad(before: BezierChain, after: BezierChain) -> float:
@@ -111,76 +103,63 @@ def _aligned(curves: Sequence[BezierChain]) -> list[BezierChain]:
     return [BezierChain(points[a:b]) for a, b in itertools.pairwise(firsts)]
 
 
-def _blend(before: BezierChain, after: BezierChain, min_radius_mm: float) -> _Blend:
-    """The tightest arc that keeps the radius; the widest that fits where none does."""
+def _blend(before: BezierChain, after: BezierChain, min_radius_mm: float) -> Blend:
     bend = bend_rad(before, after)
     if bend < SMOOTH_BEND_RAD or bend > FOLD_RAD:
-        return _Blend((), 0.0, math.inf, 0.0)
-    room = MAX_TRIM * min(before.length, after.length)
-    trim = min(room, max(MIN_BLEND_MM, min_radius_mm * math.tan(bend / 2)))
-    best: _Blend | None = None
-    while True:
-        blend = _arc(before, after, trim)
-        if blend is not None and (best is None or blend.radius_mm > best.radius_mm):
-            best = blend
-        if trim >= room or (best is not None and best.radius_mm >= 0.999 * min_radius_mm):
-            break
-        trim = min(room, 1.25 * trim)
-    return best or _Blend((), 0.0, 0.0, 0.0)
+        return NO_BLEND
+    room_mm = MAX_TRIM * min(before.length, after.length)
+    return best_blend(before, after, min_radius_mm * math.tan(bend / 2), room_mm, min_radius_mm)
 
 
-def _arc(before: BezierChain, after: BezierChain, trim: float) -> _Blend | None:
-    """Straight, arc, straight between the two trimmed ends; None where the tangents don't meet ahead."""
-    head, tail = cut(before, before.length - trim)[0], cut(after, trim)[1]
-    start, end, along, out = head.end, tail.start, head.end_tangent, tail.start_tangent
-    matrix = np.column_stack([along, out])
-    turning = _turning(along, out)
-    if abs(np.linalg.det(matrix)) < 1e-9:
-        return None
-    ahead, behind = np.linalg.solve(matrix, end - start)
-    reach = min(ahead, behind)
-    if reach <= 0:
-        return None
-    apex = start + ahead * along
-    radius = reach / math.tan(turning / 2)
-    arc = _cubic_arc(apex - reach * along, along, apex + reach * out, out, radius)
-    ends = [(start, arc.start), (arc.end, end)]
-    first, last = (straight(a, b) if np.linalg.norm(b - a) > 1e-6 else None for a, b in ends)
-    curves = tuple(curve for curve in (first, arc, last) if curve is not None)
-    corner = before.end
-    deviation = float(np.min(np.linalg.norm(arc.sampled(0.02) - corner, axis=1)))
-    return _Blend(curves, trim, radius, deviation)
+def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
+    """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough."""
+    for start_mm, end_mm in reversed(_tight_spans(joined.chain, min_radius_mm)):
+        middle, half = (start_mm + end_mm) / 2, (end_mm - start_mm) / 2
+        room = min(middle, joined.chain.length - middle, half + RELAX_RADII * min_radius_mm) - 1e-3
+        if room <= half:
+            continue
+        before, after = cut(joined.chain, middle)
+        blend = best_blend(before, after, half + 0.05, room, min_radius_mm)
+        if blend.curves and blend.radius_mm >= 0.999 * min_radius_mm and blend.deviation_mm <= min_radius_mm:
+            joined = _replaced(joined, middle, before, after, blend)
+    return joined
 
 
-def _cubic_arc(
-    start: FloatArray, along: FloatArray, end: FloatArray, out: FloatArray, radius: float
-) -> BezierChain:
-    """A circular arc as cubics of at most 60° (2·10⁻⁵ of the radius away from the circle)."""
-    cross = along[0] * out[1] - along[1] * out[0]
-    angle = math.atan2(float(cross), float(along @ out))
-    count = max(1, math.ceil(abs(angle) / (math.pi / 3)))
-    centre = start + radius * math.copysign(1, angle) * np.array([-along[1], along[0]])
-    handle = 4 / 3 * math.tan(abs(angle) / count / 4) * radius
-    turns = [
-        np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
-        for a in np.linspace(0, angle, count + 1)
-    ]
-    points = [centre + turn @ (start - centre) for turn in turns]
-    points[-1] = end
-    tangents = [turn @ along for turn in turns]
-    return BezierChain(
-        np.array(
-            [
-                [
-                    points[i],
-                    points[i] + handle * tangents[i],
-                    points[i + 1] - handle * tangents[i + 1],
-                    points[i + 1],
-                ]
-                for i in range(count)
-            ]
+def _tight_spans(chain: BezierChain, min_radius_mm: float) -> list[tuple[float, float]]:
+    """Where the curvature is beyond the metal's, joined where they are nearer than that radius."""
+    lengths = ArcLength(from_chain(chain))
+    at_mm = lengths.stations(0.02)
+    middle_mm = (at_mm[:-1] + at_mm[1:]) / 2
+    tight = np.abs(lengths.spline.curvature(lengths.parameter(middle_mm))) > 1.01 / min_radius_mm
+    spans: list[tuple[float, float]] = []
+    for a, b in np.flatnonzero(np.diff(np.r_[False, tight, False])).reshape(-1, 2):
+        start, end = float(at_mm[a]), float(at_mm[b])
+        if spans and start - spans[-1][1] < min_radius_mm:
+            spans[-1] = (spans[-1][0], end)
+        else:
+            spans.append((start, end))
+    return spans
+
+
+def _replaced(
+    joined: Joined, middle_mm: float, before: BezierChain, after: BezierChain, blend: Blend
+) -> Joined:
+    low, high = middle_mm - blend.trim_mm, middle_mm + blend.trim_mm
+    new_mm = sum(curve.length for curve in blend.curves)
+
+    def moved(at_mm: float) -> float:
+        return (
+            float(np.interp(at_mm, [low, high], [low, low + new_mm]))
+            + max(0.0, at_mm - high)
+            - max(0.0, low - at_mm)
         )
-    )
+
+    chain = [_trimmed(before, 0.0, blend.trim_mm), *blend.curves, _trimmed(after, blend.trim_mm, 0.0)]
+    corners = [dataclasses.replace(corner, at_mm=moved(corner.at_mm)) for corner in joined.corners]
+    bend = _turning(chain[0].end_tangent, chain[-1].start_tangent)
+    corners.append(Corner(low + new_mm / 2, bend, blend.radius_mm, blend.deviation_mm))
+    spans = tuple((moved(start), moved(end)) for start, end in joined.spans_mm)
+    return Joined(_connected(chain), spans, tuple(sorted(corners, key=lambda corner: corner.at_mm)))
 
 
 def _trimmed(piece: BezierChain, head: float, tail: float) -> BezierChain:

@@ -1,0 +1,136 @@
+"""Replaces a bend between two curves by one that the metal takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from wrapit.geometry import BezierChain, FloatArray, straight
+from wrapit.geometry.arclength import cut
+from wrapit.geometry.bezier import derivative, second_derivative
+
+MIN_BLEND_MM = 0.3  # shorter blends make slivers in the jig
+GROWTH = 1.2
+ROUGHNESS_MM = 0.03
+
+
+@dataclass(frozen=True, eq=False)
+class Blend:
+    """The curves that replace the last `trim_mm` of one curve and the first `trim_mm` of the next."""
+
+    curves: tuple[BezierChain, ...]
+    trim_mm: float
+    radius_mm: float
+    deviation_mm: float
+
+
+NO_BLEND: Final = Blend((), 0.0, math.inf, 0.0)
+
+
+def best_blend(
+    before: BezierChain, after: BezierChain, trim_mm: float, room_mm: float, min_radius_mm: float
+) -> Blend:
+    """The shortest blend from `trim_mm` on that keeps the radius; the widest within `room_mm` if none does.
+
+    `after` starts where `before` ends.
+    """
+    trim = min(room_mm, max(MIN_BLEND_MM, trim_mm))
+    best = NO_BLEND
+    while True:
+        head, tail = cut(before, before.length - trim)[0], cut(after, trim)[1]
+        for curves in (_arc(head, tail), _swing(head, tail)):
+            radius = _smallest_radius(curves)
+            if curves and (best is NO_BLEND or radius > best.radius_mm):
+                best = Blend(curves, trim, radius, 0.0)
+        if trim >= room_mm or (best.curves and best.radius_mm >= 0.999 * min_radius_mm):
+            return Blend(best.curves, best.trim_mm, best.radius_mm, _deviation(before, after, best))
+        trim = min(room_mm, GROWTH * trim)
+
+
+def _arc(head: BezierChain, tail: BezierChain) -> tuple[BezierChain, ...]:
+    """Straight, arc, straight between two ends; nothing where the tangents don't meet ahead."""
+    start, end, along, out = head.end, tail.start, head.end_tangent, tail.start_tangent
+    matrix = np.column_stack([along, out])
+    if abs(np.linalg.det(matrix)) < 1e-9:
+        return ()
+    ahead, behind = np.linalg.solve(matrix, end - start)
+    reach = min(ahead, behind)
+    if reach <= 0:
+        return ()
+    apex = start + ahead * along
+    arc = _cubic_arc(apex - reach * along, along, apex + reach * out, out, reach)
+    ends = [(start, arc.start), (arc.end, end)]
+    first, last = (straight(a, b) if np.linalg.norm(b - a) > 1e-6 else None for a, b in ends)
+    return tuple(curve for curve in (first, arc, last) if curve is not None)
+
+
+def _swing(head: BezierChain, tail: BezierChain) -> tuple[BezierChain, ...]:
+    """One cubic between two ends, for ends that lie beside one another."""
+    start, end = head.end, tail.start
+    handle = float(np.linalg.norm(end - start)) / 3
+    if handle < 1e-6:
+        return ()
+    return (
+        BezierChain(
+            np.array([[start, start + handle * head.end_tangent, end - handle * tail.start_tangent, end]])
+        ),
+    )
+
+
+def _cubic_arc(
+    start: FloatArray, along: FloatArray, end: FloatArray, out: FloatArray, reach: float
+) -> BezierChain:
+    """A circular arc as cubics of at most 60° (2·10⁻⁵ of the radius away from the circle)."""
+    cross = along[0] * out[1] - along[1] * out[0]
+    angle = math.atan2(float(cross), float(along @ out))
+    radius = reach / math.tan(abs(angle) / 2)
+    count = max(1, math.ceil(abs(angle) / (math.pi / 3)))
+    centre = start + radius * math.copysign(1, angle) * np.array([-along[1], along[0]])
+    handle = 4 / 3 * math.tan(abs(angle) / count / 4) * radius
+    turns = [
+        np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
+        for a in np.linspace(0, angle, count + 1)
+    ]
+    points = [centre + turn @ (start - centre) for turn in turns]
+    points[-1] = end
+    tangents = [turn @ along for turn in turns]
+    return BezierChain(
+        np.array(
+            [
+                [
+                    points[i],
+                    points[i] + handle * tangents[i],
+                    points[i + 1] - handle * tangents[i + 1],
+                    points[i + 1],
+                ]
+                for i in range(count)
+            ]
+        )
+    )
+
+
+def _smallest_radius(curves: tuple[BezierChain, ...]) -> float:
+    points = np.concatenate([curve.points for curve in curves]) if curves else np.zeros((0, 4, 2))
+    t = np.linspace(0, 1, 17)
+    d, dd = derivative(points, t), second_derivative(points, t)
+    speed = np.maximum(np.linalg.norm(d, axis=-1), 1e-12)
+    curvature = np.abs(d[..., 0] * dd[..., 1] - d[..., 1] * dd[..., 0]) / speed**3
+    return 1 / max(float(curvature.max(initial=0.0)), 1e-9)
+
+
+def _deviation(before: BezierChain, after: BezierChain, blend: Blend) -> float:
+    """Largest distance of what is replaced from what replaces it."""
+    if not blend.curves:
+        return 0.0
+    replaced = np.concatenate(
+        [
+            cut(before, before.length - blend.trim_mm)[1].sampled(ROUGHNESS_MM),
+            cut(after, blend.trim_mm)[0].sampled(ROUGHNESS_MM),
+        ]
+    )
+    new = np.concatenate([curve.sampled(ROUGHNESS_MM) for curve in blend.curves])
+    apart = np.linalg.norm(replaced[:, None] - new[None], axis=2)
+    return float(apart.min(axis=1).max())
