@@ -39,7 +39,9 @@ def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
     import cadquery
 
     with guarded("writing STEP", path.name):
-        tree = cadquery.Assembly(name=name)
+        # Names in a tree are unique: a part may not be called like the whole.
+        taken = {part.name for part in parts}
+        tree = cadquery.Assembly(name=f"{name} (all)" if name in taken else name)
         for part in parts:
             colour = cadquery.Color(*_channels(part.colour))
             tree.add(cadquery.Shape.cast(part.solid), name=part.name, color=colour)

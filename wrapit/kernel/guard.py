@@ -7,16 +7,25 @@ from contextlib import contextmanager
 
 from wrapit.errors import KernelError
 
+REMEDY = "change the size or the clearance a little"
+
 
 @contextmanager
 def guarded(doing: str, where: str) -> Iterator[None]:
-    """Turns any exception of the kernel into a KernelError with the place; passes KernelErrors on."""
-    from OCP.Standard import Standard_Failure
-
+    """Turns any exception of the kernel into a KernelError with the place; gives KernelErrors theirs."""
     try:
         yield
-    except (Standard_Failure, RuntimeError, ArithmeticError) as failure:
+    except KernelError as failure:
+        if failure.where:
+            raise
+        raise KernelError(failure.problem, where, failure.remedy or REMEDY) from failure
+    except Exception as failure:
+        if not _of_the_kernel(failure):
+            raise
         reason = " ".join(str(failure).split()) or type(failure).__name__
-        raise KernelError(
-            f"{doing} failed ({reason})", where, "change the size or the clearance a little"
-        ) from failure
+        raise KernelError(f"{doing} failed ({reason})", where, REMEDY) from failure
+
+
+def _of_the_kernel(failure: Exception) -> bool:
+    """The binding's exceptions share no base class, only their module; some come as RuntimeError."""
+    return type(failure).__module__.split(".")[0] == "OCP" or isinstance(failure, RuntimeError)

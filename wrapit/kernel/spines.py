@@ -64,12 +64,16 @@ class Spine:
         ]
 
     @cached_property
+    def breaks(self) -> FloatArray:
+        """Parameters where the curvature may jump: breaks of the spline and of the heights."""
+        if self._height is None:
+            return self.spline.breaks
+        return np.union1d(self.spline.breaks, self._lengths.parameter(self._height.x[1:-1]))
+
+    @cached_property
     def _nodes(self) -> list[float]:
-        """Breaks of the spline and of the heights, with so many between that the wire turns little."""
-        breaks = set(self.spline.breaks.tolist())
-        if self._height is not None:
-            breaks |= set(self._lengths.parameter(self._height.x[1:-1]).tolist())
-        ordered = sorted(breaks)
+        """The breaks, with so many parameters between that the wire turns little."""
+        ordered = self.breaks.tolist()
         apart = [a for a, b in itertools.pairwise(ordered) if b - a > 1e-7]
         nodes = []
         for a, b in itertools.pairwise([*apart, ordered[-1]]):

@@ -33,7 +33,7 @@ def round_wire(
     with guarded("making the round wire", name):
         spine = Spine(centreline, tuple(lifts), diameter_mm)
         skins = [skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
-        solid = capped(skins, centreline.breaks)
+        solid = capped(skins, spine.breaks)
         if spine.sharpest_per_mm * diameter_mm / 2 < TIGHT:
             _check(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm, name)
         return solid, spine.edge()

@@ -1,0 +1,82 @@
+"""Round wires: exact centrelines, true volumes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.jig.metal import arcs, circle, line, scribble, wires_of
+from wrapit.geometry import BezierChain, from_chain
+from wrapit.geometry.arclength import ArcLength
+from wrapit.kernel.checks import is_valid, size_mm, volume_mm3
+from wrapit.kernel.sweeps import round_wire
+
+D = 1.0237
+AREA = math.pi / 4 * D**2
+
+
+def sampled(edge: object, count: int) -> np.ndarray:
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+
+    curve = BRepAdaptor_Curve(edge)
+    u = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
+    return np.array([(p.X(), p.Y(), p.Z()) for p in (curve.Value(float(t)) for t in u)])
+
+
+@pytest.mark.parametrize(
+    "chain",
+    [line((0, 0), (40, 0)), arcs((0, 0), 0, (15, 0), (1.5, 180), (15, 0)), circle(5)],
+    ids=["line", "hairpin", "circle"],
+)
+def test_volume_is_section_times_length(chain: BezierChain) -> None:
+    solid, _ = round_wire(from_chain(chain), D, (), "wire-01")
+    assert is_valid(solid)
+    assert volume_mm3(solid) == pytest.approx(AREA * chain.length, rel=2e-4)
+    assert size_mm(solid)[2] == pytest.approx(D, abs=1e-3)
+
+
+def test_corner_is_mitred() -> None:
+    parts = [line((0, 0), (10, 0)).points, line((10, 0), (12, 8)).points]
+    chain = BezierChain(np.concatenate(parts))
+    solid, _ = round_wire(from_chain(chain), D, (), "wire-01")
+    assert is_valid(solid)
+    assert volume_mm3(solid) == pytest.approx(AREA * chain.length, rel=1e-6)
+
+
+def test_flat_centreline_is_the_spline_itself() -> None:
+    spline = from_chain(scribble(np.random.default_rng(2), 40, 8))
+    _, edge = round_wire(spline, D, (), "wire-01")
+    points = sampled(edge, 300)
+    assert np.abs(points[:, :2] - spline.at(np.linspace(*spline.domain, 300))).max() < 1e-12
+    assert (points[:, 2] == 0).all()
+
+
+def test_lifted_centreline_keeps_x_and_y_and_reaches_its_heights() -> None:
+    spline = from_chain(arcs((0, 0), 0, (20, 90), (10, -60)))
+    lifts = ((0.0, 0.0), (12.0, 0.0), (14.0, 1.0), (16.0, 1.0), (18.0, 0.0), (41.0, 0.0))
+    solid, edge = round_wire(spline, D, lifts, "wire-01")
+    assert is_valid(solid)
+    points = sampled(edge, 500)
+    u = np.linspace(*spline.domain, 500)
+    assert np.abs(points[:, :2] - spline.at(u)).max() < 1e-7
+    wanted = np.interp(ArcLength(spline).length(u), *np.array(lifts).T)
+    assert (points[:, 2] > wanted - 0.02).all(), "rounding never lowers a wire into the one below"
+    assert points[:, 2].max() == pytest.approx(1.0, abs=0.02)
+    assert np.abs(np.diff(points[:, 2], 2)).max() < 0.02, "no kinks"
+
+
+def test_crossing_wires_dont_touch() -> None:
+    from OCP.BRepExtrema import BRepExtrema_DistShapeShape
+
+    wires = wires_of([line((0, 0), (40, 0)), line((20, -15), (21, 15))])
+    (_, first), (_, second) = (round_wire(w.centreline, D, w.lifts, w.name) for w in wires)
+    assert BRepExtrema_DistShapeShape(first, second).Value() > D - 0.02
+
+
+def test_random_wires_are_valid() -> None:
+    rng = np.random.default_rng(7)
+    for wire in wires_of([scribble(rng, 60, 7) for _ in range(3)]):
+        solid, _ = round_wire(wire.centreline, 0.5, wire.lifts, wire.name)
+        assert volume_mm3(solid) == pytest.approx(math.pi / 16 * wire.length_mm, rel=0.03)
