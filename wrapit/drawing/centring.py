@@ -51,12 +51,13 @@ def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
         net.strands[s].start == net.strands[s].end and net.degree(net.strands[s].start) == 2 for s in strands
     ]
     sigma = max(_SMOOTHING * width_px, 1.0) / step
-    for _ in range(2):
+    # The first pass only has to come near enough for the second.
+    for fineness in (8, 14):
         paths = [_smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
         points = np.concatenate(paths)
         bounds = np.cumsum([len(path) for path in paths])[:-1]
         normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
-        left, right = _edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / 14))
+        left, right = _edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness))
         width = left + right
         shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
         points = points + np.nan_to_num(shift)[:, None] * normals

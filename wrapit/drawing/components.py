@@ -84,6 +84,8 @@ def _groups(pieces: list[Piece]) -> list[list[Piece]]:
     groups: dict[int, list[Piece]] = {}
     for piece in pieces:
         groups.setdefault(root(piece.start), []).append(piece)
+    if len(groups) == 1:
+        return [pieces]
     return sorted(groups.values(), key=lambda group: -sum(piece.curve.length for piece in group))
 
 

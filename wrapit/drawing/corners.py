@@ -52,20 +52,25 @@ def find_corners(line: Line, width_px: float, first: int, last: int) -> list[Cor
 
 def _candidates(line: Line, width_px: float, low: float, high: float) -> list[float]:
     """Lengths along the line where it turns most."""
+    # The points are evenly spaced, so lengths are counts.
     along = line.along
+    step = max(line.length / (len(along) - 1), 1e-6)
+    near, far = max(1, round(_NEAR * width_px / step)), max(2, round(_PROBE * width_px / step))
     inner = np.flatnonzero((along >= low + 1.25 * width_px) & (along <= high - 1.25 * width_px))
     if not len(inner):
         return []
+    first, last = np.searchsorted(along, [low, high])
 
-    def at(shift: float) -> FloatArray:
-        s = np.clip(along[inner] + shift * width_px, low, high)
-        return np.column_stack([np.interp(s, along, line.points[:, k]) for k in (0, 1)])
+    def at(shift: int) -> FloatArray:
+        return line.points[np.clip(inner + shift, first, min(last, len(along) - 1))]
 
-    before, after = at(-_NEAR) - at(-_PROBE), at(_PROBE) - at(_NEAR)
+    before, after = at(-near) - at(-far), at(far) - at(near)
     turn = np.abs(
         np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
     )
-    reach = max(1, int(width_px / max(float(np.median(np.diff(along))), 1e-6)))
+    if turn.max() <= _SEEN_RAD:
+        return []
+    reach = max(1, int(width_px / step))
     padded = np.pad(turn, reach)
     peak = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
     tops = inner[(turn == peak) & (turn > _SEEN_RAD)]

@@ -84,9 +84,8 @@ def refuse_loose_strokes(net: Network, where: str) -> None:
 def midtones(ink: Ink) -> float:
     """Share of the pixels that are neither ink nor paper, 0…1."""
     contrast = ink.paper - ink.ink
-    histogram = np.bincount(ink.grey.ravel(), minlength=256)
     low, high = int(ink.ink + 0.25 * contrast), int(ink.paper - 0.25 * contrast)
-    return float(histogram[low : high + 1].sum() / histogram.sum())
+    return float(ink.histogram[low : high + 1].sum() / ink.histogram.sum())
 
 
 def fat_share(ink: Ink, skeleton: Skeleton) -> float:

@@ -99,4 +99,4 @@ def _inked(ink: Ink, tracing: TracingConfig) -> Ink:
     apart = np.where(soft, distance_transform_edt(soft) - 0.5, distance_transform_edt(~soft) - 0.5)
     level = np.clip(apart - _OUTLINE_PX / 2 + 0.5, 0, 1)
     grey = (255 * level + 0.5).astype(np.uint8)
-    return Ink(grey < 128, grey, 255.0, 0.0, ink.shaded)
+    return Ink(grey < 128, grey, 255.0, 0.0, ink.shaded, np.bincount(grey.ravel(), minlength=256))

@@ -31,7 +31,7 @@ def thin_within(mask: BoolImage) -> Skeleton:
         raise ValueError("there is no ink")
     top, left = int(rows[0]), int(columns[0])
     skeleton = thin(np.ascontiguousarray(mask[top : rows[-1] + 1, left : columns[-1] + 1]))
-    return replace(skeleton, pixels=skeleton.pixels + [left, top])
+    return replace(skeleton, pixels=skeleton.pixels + np.array([left, top]))
 
 
 def thin(mask: BoolImage) -> Skeleton:

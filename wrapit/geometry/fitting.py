@@ -17,7 +17,7 @@ from wrapit.geometry.arrays import FloatArray, IntArray, unit
 from wrapit.geometry.bezier import BezierChain
 
 _ITERATIONS = 5
-_HOPELESS = 6.0
+_HOPELESS = 10.0
 
 
 @dataclass(frozen=True, eq=False)
