@@ -18,8 +18,10 @@ from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.exports.plate_files import GAP_MM, sheet_name, write_plate_files
-from wrapit.geometry import Loop
+from wrapit.geometry import Loop, Region
+from wrapit.geometry.moves import rounded_rectangle
 from wrapit.geometry.pieces import chain_of
+from wrapit.jig.laser_engraving import wire_numbers
 from wrapit.jig.laser_inlays import polygon_of
 from wrapit.jig.laser_model import LaserJig, LaserPart, Placed
 from wrapit.jig.laser_nesting import nest
@@ -249,6 +251,8 @@ def test_a_kerf_that_swallows_walls_is_a_finding_not_a_broken_contour() -> None:
     for part in laser.parts:
         for contour in part.contours:
             assert not contour.is_cut or contour.closed
+    holes = [finding for finding in findings if "a hole of" in finding.message]
+    assert len(holes) == 3  # where the wires start and end, one of them twice; pins are thick enough
     swallowed = [finding for finding in findings if finding.code == "kerf-too-wide"]
     assert all("at (" in finding.where and finding.remedy for finding in swallowed)
 
@@ -285,6 +289,16 @@ def test_thin_wall_sheet_is_stacked_and_said_so() -> None:
     assert sum(p.part.role == "wall" for s in laser.sheets for p in s.placed) == 2 * len(walls)
     assert "stacked-walls" in {finding.code for finding in findings}
     assert laser.wall_height_mm == pytest.approx(3.0)
+
+
+def test_wire_numbers_are_engraved_where_there_is_room() -> None:
+    wires = woven(4)
+    plate = Region(rounded_rectangle(-20, -20, 60, 60, 0))
+    strokes, left = wire_numbers(wires, plate)
+    assert strokes
+    assert not left
+    tight = Region(rounded_rectangle(20, 20, 24, 24, 0))
+    assert wire_numbers(wires, tight) == ((), wires)
 
 
 def test_reference_bar_is_a_hundred_millimetres_long() -> None:

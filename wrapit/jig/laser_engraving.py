@@ -33,7 +33,7 @@ def plate_contours(plate: Region, walls: Sequence[Region], wires: Sequence[Wire]
     bare = Region(plate.outer, (*(wall.outer for wall in walls), *plate.holes))
     return (
         *engraved_wires(wires, bare),
-        *wire_numbers(wires, bare),
+        *wire_numbers(wires, bare)[0],
         *(Contour("CUT_INNER", loop.edges) for loop in loops),
         Contour("CUT_OUTER", plate.outer.edges),
     )
@@ -45,13 +45,23 @@ def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
     return tuple(Contour("ENGRAVE", (part,)) for chain in _runs(wires) for part in parts_inside(chain, area))
 
 
-def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
-    """The wires' numbers beside their starts, clear of edges and of one another."""
+def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, ...], tuple[Wire, ...]]:
+    """The wires' numbers beside their starts, clear of edges and of one another; wires left without."""
+    from shapely import box
+
     area = polygon_of(plate).buffer(-CLEAR_MM)
     ink = [chain_of(wire.centreline).sampled(0.5) for wire in wires]
     ink.append(_points_outside(area))
     labels = place_labels([(number_of(wire), wire.ends[:1]) for wire in wires], np.vstack(ink), NUMBER_MM)
-    return tuple(stroke for label in labels for stroke in engraved_text(label.text, label.centre, NUMBER_MM))
+    strokes: list[Contour] = []
+    left: list[Wire] = []
+    for wire, label in zip(wires, labels, strict=True):
+        (x, y), (half_x, half_y) = label.centre, label.half_size
+        if area.contains(box(x - half_x, y - half_y, x + half_x, y + half_y)):
+            strokes += engraved_text(label.text, label.centre, NUMBER_MM)
+        else:
+            left.append(wire)
+    return tuple(strokes), tuple(left)
 
 
 def label_on(part: Region, text: str, *, least_mm: float, force: bool = False) -> tuple[Contour, ...]:

@@ -54,28 +54,58 @@ def stack_parts(
     kept, hole_findings = _clear_holes(jig, holes, inlays)
     frame = frame_around(wires, [inlay.wall for inlay in inlays], kept, jig_config, config)
     pins = [Hole(pin, config.pin, (), circle(pin, config.pin / 2)) for pin in frame.pins]
-    through = tuple(_Opening(hole, _hole_cut(hole, config, offset)) for hole in (*pins, *kept))
+    cuts = [(hole, _hole_cut(hole, config, offset)) for hole in (*pins, *kept)]
+    through = tuple(_Opening(hole, cut) for hole, cut in cuts if cut is not None)
+    swallowed = [_swallowed(jig, hole) for hole, cut in cuts if cut is None]
     copies = copies_needed(max(wire.layers for wire in wires), max(w.diameter_mm for w in wires), config)
+    numbers, numberless = wire_numbers(wires, _bare(frame, through, inlays))
     parts = (
         _bottom(jig, prefix, frame, through, inlays, config),
-        *_pocket_plates(jig, prefix, frame, through, inlays, wires, config),
+        *_pocket_plates(jig, prefix, frame, through, inlays, wires, numbers, config),
         *(_piece(jig, prefix, inlay, copies, config) for inlay in inlays),
     )
-    return parts, (*findings, *hole_findings)
+    unnumbered = [_numberless(jig, wire) for wire in numberless]
+    return parts, (*findings, *hole_findings, *swallowed, *unnumbered)
 
 
 @dataclass(frozen=True, eq=False)
 class _Opening:
-    """A hole through both plates and its cut; none if the kerf is wider than the hole."""
+    """A hole through both plates and its cut."""
 
     hole: Hole
-    cut: Loop | None
+    cut: Loop
 
 
 def _hole_cut(hole: Hole, config: PlateConfig, offset: Offset) -> Loop | None:
     outline = oriented(Region(hole.outline)).outer
     moved = moved_outline(outline, -config.kerf / 2, offset)
     return moved.loop if moved is not None else None
+
+
+def _bare(frame: Frame, through: Sequence[_Opening], inlays: Sequence[Inlay]) -> Region:
+    """What is left of the plate beside pockets (with all that lies inside of them) and holes."""
+    pockets = [reversed_loop(inlay.pocket.outer) for inlay in inlays]
+    return Region(frame.outline(), (*pockets, *map(_rim, through)))
+
+
+def _swallowed(jig: str, hole: Hole) -> Finding:
+    return Finding(
+        "warning",
+        "kerf-too-wide",
+        f"{jig}, hole at ({hole.centre[0]:.1f}, {hole.centre[1]:.1f})",
+        f"a hole of {hole.diameter_mm:.1f} mm is narrower than the laser's kerf; it is left out",
+        "drill it by hand, or measure the kerf with `wrapit coupon` and set plate.kerf",
+    )
+
+
+def _numberless(jig: str, wire: Wire) -> Finding:
+    return Finding(
+        "note",
+        "number-without-room",
+        f"{jig}, start of {wire.name}",
+        "there is no room on the plate for the wire's number",
+        "write it on by hand",
+    )
 
 
 def _clear_holes(
@@ -137,6 +167,7 @@ def _pocket_plates(
     through: Sequence[_Opening],
     inlays: Sequence[Inlay],
     wires: Sequence[Wire],
+    numbers: Sequence[Contour],
     config: PlateConfig,
 ) -> list[LaserPart]:
     """The plate around all pockets, and an island for each hole of a ring-shaped wall."""
@@ -164,7 +195,7 @@ def _pocket_plates(
         engraving = list(engraved_wires(wires, shape))
         if index == 0:
             engraving += engraved_text(label, frame.label_place, LABEL_MM)
-            engraving += wire_numbers(wires, shape)
+            engraving += numbers
         else:
             engraving += label_on(shape, label, least_mm=1.0, force=True)
         cuts = [Contour("CUT_INNER", reversed_loop(inlay.pocket_cut).edges) for inlay in pockets]
@@ -206,8 +237,4 @@ def _rim(opening: _Opening) -> Loop:
 
 
 def _cuts(openings: Sequence[_Opening]) -> list[Contour]:
-    return [
-        Contour("CUT_INNER", reversed_loop(opening.cut).edges)
-        for opening in openings
-        if opening.cut is not None
-    ]
+    return [Contour("CUT_INNER", reversed_loop(opening.cut).edges) for opening in openings]
