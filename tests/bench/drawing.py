@@ -117,15 +117,83 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def main(names: list[str]) -> None:
+def own_pictures() -> list[tuple[str, Path, dict[str, Any], dict[str, Any]]]:
+    """Our own configs' bitmaps, with the SVG they were rendered from as truth."""
+    from PIL import Image
+
+    from wrapit.drawing.planar import planar
+    from wrapit.drawing.svg import read_strokes
+
+    found = []
+    for picture in sorted((Path(__file__).parents[2] / "configs").glob("*.png")):
+        source = picture.with_suffix(".svg")
+        if not source.exists():
+            continue
+        strokes = read_strokes(source, TracingConfig())
+        width = strokes.width_px or 1.0
+        drawn = planar(strokes.curves, 0.95 * width, TracingConfig().corner_angle)
+        factor = Image.open(picture).width / _width_px(source)
+        number = {node: index for index, node in enumerate(drawn.places)}
+        truth = {
+            "stroke_px": width * factor,
+            "vertices": [(factor * point - 0.5).tolist() for point in drawn.places.values()],
+            "edges": [
+                [number[p.start], number[p.end], (factor * p.curve.sampled(0.5 / factor) - 0.5).tolist()]
+                for p in drawn.pieces
+            ],
+        }
+        found.append(("own", picture, truth, {"flags": []}))
+    return found
+
+
+def _width_px(source: Path) -> float:
+    from svgelements import SVG
+
+    return float(SVG.parse(str(source)).width)
+
+
+def plain_beziers(path: Path) -> int:
+    """Béziers of a plain Schneider fit through the smoothed skeleton, at the same tolerance."""
+    from scipy.ndimage import gaussian_filter1d
+
+    from wrapit.drawing.picture import read_picture
+    from wrapit.drawing.skeleton import network
+    from wrapit.geometry import unit
+    from wrapit.geometry.fitting import Stroke, fit_all
+
+    skeleton = read_picture(path, TracingConfig()).skeleton
+    net = network(skeleton.pixels, skeleton.pairs)
+    strokes = []
+    for strand in net.strands:
+        points = net.path(strand)
+        points = gaussian_filter1d(points, 0.35 * skeleton.width_px, axis=0, mode="nearest")
+        reach = min(5, len(points) - 1)
+        strokes.append(Stroke(points, unit(points[reach] - points[0]), unit(points[-1] - points[-1 - reach])))
+    return sum(len(chain) for chain in fit_all(strokes, 0.04 * skeleton.width_px))
+
+
+def autotraced(path: Path) -> int | None:
+    """Béziers of `autotrace -centerline`, where pyautotrace is installed."""
+    try:
+        from autotrace import Bitmap  # type: ignore[import-not-found]
+    except ImportError:
+        return None
+    from PIL import Image
+
+    vector = Bitmap(np.asarray(Image.open(path).convert("RGB"))).trace(centerline=True)
+    return sum(len(p.splines) for p in vector.paths)
+
+
+def main(names: list[str] | None = None) -> None:
     """Prints one row per picture and a summary per kind."""
-    if not CORPUS.exists():
-        print("no corpus found; set WRAPIT_CORPUS")
+    if not (CORPUS / "evaluate.py").exists():
+        print("the corpus of drawings is not here; set WRAPIT_CORPUS")
         return
     scorer = evaluator()
     print(f"{'':34}" + "".join(f"{title:>8}" for title, _ in COLUMNS))
     rows: dict[str, list[dict[str, Any]]] = {}
-    for kind, path, truth, entry in pictures():
+    peers: list[int] = []
+    for kind, path, truth, entry in [*pictures(), *own_pictures()]:
         if names and not any(name in path.stem or name == kind for name in names):
             continue
         scores = measure(path, truth, scorer)
@@ -133,10 +201,14 @@ def main(names: list[str]) -> None:
         rows.setdefault(kind, []).append(scores)
         if "refused" in scores:
             print(f"{path.stem:34} {scores['refused']}")
-        else:
-            print(f"{path.stem:34}" + "".join(f"{_cell(scores[key]):>8}" for _, key in COLUMNS))
+            continue
+        print(f"{path.stem:34}" + "".join(f"{_cell(scores[key]):>8}" for _, key in COLUMNS))
+        scores["plain"] = plain_beziers(path)
+        peer = autotraced(path)
+        peers += [] if peer is None else [peer]
     for kind, scores_of_kind in rows.items():
         print(_summary(kind, scores_of_kind))
+    print(f"autotrace -centerline: {sum(peers)} Béziers" if peers else "pyautotrace is not installed")
 
 
 def _cell(value: Any) -> str:
@@ -160,7 +232,8 @@ def _summary(kind: str, rows: list[dict[str, Any]]) -> str:
         f"Hausdorff {np.median(column('hausdorff_sw')):.3f} sw  "
         f"tangent {np.median(column('tangent_error_deg_median', False)):.2f}° "
         f"p95 {np.median(column('tangent_error_deg_p95', False)):.2f}°  "
-        f"Béziers {sum(column('beziers')):.0f}  time {np.median(column('time_ratio')):.1f} × skeletonize"
+        f"Béziers {sum(column('beziers')):.0f} of a plain fit's {sum(column('plain')):.0f}  "
+        f"time {np.median(column('time_ratio')):.1f} × skeletonize"
     )
 
 

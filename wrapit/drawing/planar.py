@@ -13,6 +13,9 @@ from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.bezier import split
 
 
+_STUB = 0.63
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """Cubics (n, 4, 2) that follow one another, closed or open."""
@@ -33,7 +36,8 @@ class Planar:
 def planar(curves: list[Curve], reach: float, corner_rad: float) -> Planar:
     """The graph of curves cut where they cross, touch, end, or turn by more than `corner_rad`.
 
-    Ends closer than `reach` to another curve are joined to it; shorter free stubs are left out.
+    Ends closer than `reach` to another curve are joined to it; free stubs shorter than two thirds of
+    that are left out.
     """
     marks = [_own_marks(curve, corner_rad) for curve in curves]
     cubics = [curve.cubics for curve in curves]
@@ -49,7 +53,7 @@ def planar(curves: list[Curve], reach: float, corner_rad: float) -> Planar:
     for each, own in zip(curves, marks, strict=True):
         pieces += _pieces(each, own, nodes, reach)
     pieces = _without_doubles(pieces, 0.1 * reach)
-    pieces, stubs = _without_stubs(pieces, reach)
+    pieces, stubs = _without_stubs(pieces, _STUB * reach)
     return Planar(nodes.places(), pieces, stubs)
 
 

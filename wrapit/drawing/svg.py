@@ -21,8 +21,8 @@ from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import FloatArray
 
 _MM_PER_PX = 25.4 / 96
-# Ends within this many stroke widths of another stroke belong to it.
-_REACH = 0.6
+# Ends within this many stroke widths of another stroke's centre touch its ink and belong to it.
+_REACH = 0.95
 # Without any stroke width: this share of the drawing's size.
 _REACH_SHARE = 2e-3
 _LARGEST_BYTES = 50_000_000
