@@ -7,7 +7,7 @@ elsewhere. Summed over the junctions, the best matchings are a lower bound on th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 
 from wrapit.decomposition.model import NO_MATE
@@ -46,10 +46,12 @@ class LocalCosts:
     """What each matching at a junction costs; weak wires that are known to hang there included.
 
     `pair[a][b]` is the cost of the transition a–b, `free[h]` that of a wire end at h, and
-    `loose[h]`, for h the lower of two half-edges, that of two wire ends at both.
+    `loose[h]`, for h the lower of two half-edges, that of two wire ends at both. Junctions in
+    `allowed` have no other matchings than those of `matchings_of(degree)` with these indices.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, allowed: Mapping[int, frozenset[int]] | None = None) -> None:
+        self._allowed = allowed or {}
         graph, weights = problem.graph, problem.weights
         self.incident = graph.incident
         forbidden = problem.rules.forbidden
@@ -71,7 +73,7 @@ class LocalCosts:
         """Least cost at a junction and a matching that has it."""
         if junction not in self._best:
             ends = self.incident[junction]
-            if len(ends) <= _QUICK_DEGREE:
+            if len(ends) <= _QUICK_DEGREE or junction in self._allowed:
                 costs = self.listed(junction)
                 index = min(range(len(costs)), key=costs.__getitem__)
                 self._best[junction] = (costs[index], self.matching(junction, index))
@@ -164,6 +166,9 @@ class LocalCosts:
                     for index, pairs in enumerate(matchings_of(len(ends))):
                         if not any(i in chosen or j in chosen for chosen in pairs):
                             costs[index] += both
+            if junction in self._allowed:
+                chosen = self._allowed[junction]
+                costs = [cost if index in chosen else math.inf for index, cost in enumerate(costs)]
             self._listed[junction] = costs
         return self._listed[junction]
 

@@ -23,13 +23,24 @@ class Pendants:
         self._graph, self._costs, self._weak_cost = graph, costs, weak_cost
         self._known: set[tuple[tuple[int, ...], ...]] = set()
         self._settled: set[int] = set()
+        self._undecided: dict[tuple[tuple[int, ...], ...], tuple[int, ...]] = {}
+        self.strange: list[tuple[list[int], int]] = []
+        """Weak wires met last that no cost at one junction can stand for, each with its junction."""
         for ends in graph.incident:
             self._add_single_segments(ends)
 
     def learn(self, mate: Sequence[int], weak: Iterable[tuple[int, int]]) -> bool:
         """Adds weak wires, each given by a wire end and its one junction; says whether one was new."""
+        self.strange = []
         added = [self._add(mate, walk(mate, start), junction) for start, junction in weak]
         return any(added)
+
+    def undecided(self) -> tuple[int, ...] | None:
+        """The inside of a branch that may give way at less than the weight of a weak wire.
+
+        Fixing or changing its matchings makes things clear.
+        """
+        return min(self._undecided.values(), key=lambda inside: (len(inside), inside), default=None)
 
     def _add_single_segments(self, ends: Sequence[int]) -> None:
         """Leaves and loops are branches by themselves, unless they are the whole piece."""
@@ -53,14 +64,22 @@ class Pendants:
         doors = [
             tuple(h for h in (branch[0], branch[-1] ^ 1) if junction_of[h] == junction) for branch in branches
         ]
-        known = tuple(doors) in self._known or junction in self._settled
-        if known or sum(map(len, doors)) > 2 or not all(self._fills(branch, junction) for branch in branches):
+        if tuple(doors) in self._known:
             return False
         inside = {junction_of[h] for step in steps for h in (step, step ^ 1)} - {junction}
-        if any(not self._costs.is_best(j, mate) for j in inside):
+        if (
+            junction in self._settled
+            or sum(map(len, doors)) > 2
+            or not all(self._fills(branch, junction) for branch in branches)
+            or not all(self._costs.is_best(j, mate) for j in inside)
+        ):
+            self.strange.append((list(steps), junction))
             return False
         cost = min([self._weak_cost, *(self._costs.second_loss(j) for j in sorted(inside))])
+        if cost < self._weak_cost - 1e-9:
+            self._undecided[tuple(doors)] = tuple(sorted(inside))
         if cost < 1e-9:
+            self._known.add(tuple(doors))
             return False
         self._charge(doors, cost)
         self._settled |= inside

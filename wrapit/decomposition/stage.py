@@ -10,9 +10,10 @@ import numpy as np
 from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig
 from wrapit.decomposition.annealing import anneal
 from wrapit.decomposition.bridges import with_bridges
+from wrapit.decomposition.cases import certified
 from wrapit.decomposition.constraints import rules_of
 from wrapit.decomposition.energy import energy_of_trails
-from wrapit.decomposition.exact import certified, solve_exactly
+from wrapit.decomposition.exact import solve_exactly
 from wrapit.decomposition.findings import findings_of
 from wrapit.decomposition.graph import Graph, graph_of
 from wrapit.decomposition.model import Decomposition, Solution, SolverName, Weights
