@@ -16,6 +16,7 @@ from wrapit.wires.model import Wire
 
 COLOUR = "#c8ccd4"
 CLEARANCE_TOLERANCE_MM = 1e-3
+WORTH_A_JIG = 0.1  # support that a badly held wire must gain
 
 
 def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
@@ -36,7 +37,8 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     apart = [_planned((wire,), config, f"jig-{wire.name}") for wire in wires]
     alone = {name: share for each in apart for name, share in each.by_wire.items()}
     groups = grouped(wires, alone, config)
-    if len(groups) == 1 or all(alone[name] - share < 1e-3 for name, share in shared.items()):
+    weak = [name for name, share in shared.items() if share < config.min_turn_support]
+    if len(groups) == 1 or all(alone[name] - shared[name] < WORTH_A_JIG for name in weak):
         return _set([single], config, ())
     parts = [
         next(each for each in apart if each.course.wires == group)
@@ -44,6 +46,9 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
         else _planned(group, config, _name(group))
         for group in groups
     ]
+    apart_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
+    if all(apart_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
+        return _set([single], config, ())
     return _set(parts, config, (split_finding(shared, len(groups), config.min_turn_support),))
 
 
