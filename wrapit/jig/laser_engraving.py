@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, Loop, Region
-from wrapit.geometry.labels import place_labels
+from wrapit.geometry.labels import Label, place_labels
 from wrapit.geometry.pieces import chain_of, piece
 from wrapit.jig.laser_inlays import polygon_of
 from wrapit.jig.laser_model import Contour
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 # Engraved lines keep this distance from edges.
 CLEAR_MM = 0.25
-NUMBER_MM = 2.5
+# Heights and places of wire numbers, the next where there is no room for the one before.
+NUMBER_PLACES = ((2.5, "start"), (2.0, "start"), (1.6, "start"), (2.0, "anywhere"), (1.6, "anywhere"))
 LARGEST_LABEL_MM = 4.0
 _STEP_MM = 0.05
 _SHORTEST_MM = 0.5
@@ -46,22 +47,34 @@ def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
 
 
 def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, ...], tuple[Wire, ...]]:
-    """The wires' numbers beside their starts, clear of edges and of one another; wires left without."""
+    """The wires' numbers beside their starts, or beside their paths; wires left without."""
     from shapely import box
 
     area = polygon_of(plate).buffer(-CLEAR_MM)
-    ink = [chain_of(wire.centreline).sampled(0.5) for wire in wires]
-    ink.append(_points_outside(area))
-    labels = place_labels([(number_of(wire), wire.ends[:1]) for wire in wires], np.vstack(ink), NUMBER_MM)
+    ink = np.vstack([*(chain_of(wire.centreline).sampled(0.5) for wire in wires), _points_outside(area)])
     strokes: list[Contour] = []
-    left: list[Wire] = []
-    for wire, label in zip(wires, labels, strict=True):
-        (x, y), (half_x, half_y) = label.centre, label.half_size
-        if area.contains(box(x - half_x, y - half_y, x + half_x, y + half_y)):
-            strokes += engraved_text(label.text, label.centre, NUMBER_MM)
-        else:
-            left.append(wire)
-    return tuple(strokes), tuple(left)
+    left = tuple(wires)
+    placed: tuple[Label, ...] = ()
+    for size_mm, near in NUMBER_PLACES:
+        anchors = [wire.ends[:1] if near == "start" else wire.centreline.at(_spread(wire)) for wire in left]
+        wanted = [(number_of(wire), points) for wire, points in zip(left, anchors, strict=True)]
+        labels = place_labels(wanted, ink, size_mm, placed)
+        fits = [area.contains(box(*_corners(label))) for label in labels]
+        for label in itertools.compress(labels, fits):
+            strokes += engraved_text(label.text, label.centre, size_mm)
+            placed = (*placed, label)
+        left = tuple(wire for wire, fit in zip(left, fits, strict=True) if not fit)
+    return tuple(strokes), left
+
+
+def _spread(wire: Wire) -> FloatArray:
+    """Parameters all along the wire."""
+    return np.linspace(*wire.centreline.domain, 40)
+
+
+def _corners(label: Label) -> tuple[float, float, float, float]:
+    (x, y), (half_x, half_y) = label.centre, label.half_size
+    return x - half_x, y - half_y, x + half_x, y + half_y
 
 
 def label_on(part: Region, text: str, *, least_mm: float, force: bool = False) -> tuple[Contour, ...]:
