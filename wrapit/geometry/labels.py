@@ -67,7 +67,8 @@ def _place(
             free = ~_overlaps(centres, half, boxes)
             if not free.any():
                 continue
-            hits = np.where(free, _hits(centres, half, ink), len(ink) + 1)
+            around = np.abs(ink - anchor).max(axis=1) < float(reach.max() + 2 * half.max())
+            hits = np.where(free, _hits(centres, half, ink[around]), len(ink) + 1)
             best = int(np.argmin(hits))
             if hits[best] == 0:
                 return _label(text, centres[best], half, anchor, ring)

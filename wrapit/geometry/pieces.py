@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
-from wrapit.geometry.bezier import BezierChain, split
+from wrapit.geometry.bezier import BezierChain, derivative, split
 from wrapit.geometry.bspline import BSpline
 
 
@@ -62,15 +62,19 @@ def _blossom(spline: BSpline, index: int, values: tuple[float, float, float]) ->
 
 
 def _parameter(cubic: FloatArray, length_mm: float) -> float:
-    """Parameter at which the cubic (4, 2) has run `length_mm`, by bisection on exact lengths."""
+    """Parameter at which the cubic (4, 2) has run `length_mm`: safeguarded Newton on exact lengths."""
     total = BezierChain(cubic[None]).length
     if length_mm <= 1e-9 * total:
         return 0.0
     if length_mm >= total * (1 - 1e-9):
         return 1.0
-    low, high = 0.0, 1.0
-    while high - low > 1e-10:
-        middle = (low + high) / 2
-        short = BezierChain(split(cubic[None], middle)[0]).length < length_mm
-        low, high = (middle, high) if short else (low, middle)
-    return (low + high) / 2
+    low, high, t = 0.0, 1.0, length_mm / total
+    for _ in range(60):
+        excess = BezierChain(split(cubic[None], t)[0]).length - length_mm
+        if abs(excess) <= 1e-10 * total:
+            break
+        low, high = (low, t) if excess > 0 else (t, high)
+        speed = float(np.linalg.norm(derivative(cubic[None], np.array([t]))[0, 0]))
+        step = t - excess / speed if speed > 0 else -1.0
+        t = step if low < step < high else (low + high) / 2
+    return t
