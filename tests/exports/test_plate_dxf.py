@@ -17,8 +17,21 @@ from tests.exports.test_preview import PLATE, WALL
 from wrapit.exports.laser_profiles import PROFILES
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.jig.laser_engraving import plate_contours
+from wrapit.jig.laser_engraving import engraved_wires, wire_numbers
 from wrapit.jig.laser_model import Contour
+from wrapit.wires.model import Wire
+
+
+def plate_contours(plate: Region, walls: list[Region], wires: tuple[Wire, ...]) -> tuple[Contour, ...]:
+    """A plate with openings in the shape of walls, and what is engraved on it."""
+    loops = [loop for wall in walls for loop in (wall.outer, *wall.holes)] + list(plate.holes)
+    bare = Region(plate.outer, (*(wall.outer for wall in walls), *plate.holes))
+    return (
+        *engraved_wires(wires, bare),
+        *wire_numbers(wires, bare)[0],
+        *(Contour("CUT_INNER", loop.edges) for loop in loops),
+        Contour("CUT_OUTER", plate.outer.edges),
+    )
 
 
 def moon() -> Region:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,10 +73,6 @@ class Pictures:
         present = piece(chain, step.start_mm, end_mm)
         done = self.frame.path(piece(chain, 0.0, step.start_mm)) if step.start_mm > 1e-6 else ""
         return StepPicture(done, self.frame.path(present), self._arrow(present))
-
-    def order(self, wires: Sequence[int]) -> list[str]:
-        """Path data of several wires."""
-        return [self.shapes[wire] for wire in wires]
 
     def _arrow(self, chain: BezierChain) -> str:
         """A barbed head at the end of the stretch."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wrapit.geometry import BezierChain, FloatArray, Loop, Region
+from wrapit.geometry import BezierChain, FloatArray, Region
 from wrapit.geometry.labels import Label, place_labels
 from wrapit.geometry.pieces import chain_of, piece
 from wrapit.jig.laser_inlays import polygon_of
@@ -26,18 +26,6 @@ NUMBER_PLACES = ((2.5, "start"), (2.0, "start"), (1.6, "start"), (2.0, "anywhere
 LARGEST_LABEL_MM = 4.0
 _STEP_MM = 0.05
 _SHORTEST_MM = 0.5
-
-
-def plate_contours(plate: Region, walls: Sequence[Region], wires: Sequence[Wire]) -> tuple[Contour, ...]:
-    """Plate and walls as closed contours, wire paths and wire numbers engraved; nothing drawn twice."""
-    loops: list[Loop] = [loop for wall in walls for loop in (wall.outer, *wall.holes)] + list(plate.holes)
-    bare = Region(plate.outer, (*(wall.outer for wall in walls), *plate.holes))
-    return (
-        *engraved_wires(wires, bare),
-        *wire_numbers(wires, bare)[0],
-        *(Contour("CUT_INNER", loop.edges) for loop in loops),
-        Contour("CUT_OUTER", plate.outer.edges),
-    )
 
 
 def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.moves import circle, oriented, reversed_loop
+from wrapit.geometry.moves import circle, oriented, reversed_loop, rounded_rectangle
 from wrapit.jig.laser_engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.laser_frame import Frame, frame_around
 from wrapit.jig.laser_inlays import Inlay, Offset, make_inlays, moved_outline, polygon_of
@@ -83,9 +83,11 @@ def _hole_cut(hole: Hole, config: PlateConfig, offset: Offset) -> Loop | None:
 
 
 def _bare(frame: Frame, through: Sequence[_Opening], inlays: Sequence[Inlay]) -> Region:
-    """What is left of the plate beside pockets (with all that lies inside of them) and holes."""
+    """What is left of the plate beside pockets (with all that lies in them), holes and the part's label."""
+    x, y = frame.label_place
+    label = rounded_rectangle(x - 1.5 * LABEL_MM, y - LABEL_MM, x + 1.5 * LABEL_MM, y + LABEL_MM, 0.0)
     pockets = [reversed_loop(inlay.pocket.outer) for inlay in inlays]
-    return Region(frame.outline(), (*pockets, *map(_rim, through)))
+    return Region(frame.outline(), (*pockets, *map(_rim, through), reversed_loop(label)))
 
 
 def _swallowed(jig: str, hole: Hole) -> Finding:
