@@ -99,6 +99,10 @@ def build(
         str, typer.Option(metavar="STAGE", help="Stop after drawing, decomposition, wires, jig or exports.")
     ] = "exports",
     force: Annotated[bool, typer.Option("--force", help="Build even if nothing changed.")] = False,
+    alternatives: Annotated[
+        int,
+        typer.Option(min=0, max=12, metavar="K", help="Also draw the K best ways to divide it into wires."),
+    ] = 0,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = 0,
@@ -108,9 +112,35 @@ def build(
 
     stage = _stage(until)
     result = _with_progress(
-        lambda progress: run(config, output, overrides or (), stage, force, progress), quiet or as_json
+        lambda progress: run(config, output, overrides or (), stage, force, alternatives, progress),
+        quiet or as_json,
     )
     _show(result, as_json, quiet, verbose)
+
+
+@app.command()
+def init(
+    drawing: Annotated[Path, typer.Argument(metavar="DRAWING", help="A bitmap, SVG or JSON drawing.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Default: the drawing's name with .yaml."),
+    ] = None,
+) -> None:
+    """Write a commented config for a drawing, with sizes proposed from it."""
+    from wrapit.drawing.proposal import propose_config
+    from wrapit.errors import ConfigError
+
+    target = output or drawing.with_suffix(".yaml")
+    text = propose_config(drawing)
+    if target.exists():
+        raise ConfigError("exists already", str(target), "choose another file with -o")
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(
+            f"can't be written ({error.strerror})", str(target), "choose another file with -o"
+        ) from None
+    print(f"written: {target}; build it with: wrapit build {target}")
 
 
 @app.command()

@@ -16,6 +16,13 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
 from wrapit.jig.model import JigSet
 from wrapit.pipeline import report as reports
+from wrapit.pipeline.exporting import (
+    write_alternatives,
+    write_guide,
+    write_plate,
+    write_previews,
+    write_text,
+)
 from wrapit.pipeline.folder import REPORT, artifacts_in, check_target, replaced_whole, sha256
 from wrapit.pipeline.solids import PRELOAD, make_solids
 from wrapit.pipeline.worker import Worker
@@ -44,6 +51,7 @@ class _Work:
     drawing_path: Path
     until: Stage
     progress: Progress
+    alternatives: int
     timings_s: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     drawing: Drawing | None = None
@@ -69,13 +77,16 @@ def build(
     overrides: Sequence[str] = (),
     until: Stage = "exports",
     force: bool = False,
+    alternatives: int = 0,
     progress: Progress = lambda stage: None,
 ) -> Build:
     """Builds a piece into `target` (default `build/<name>`), unless what is there is already the same.
 
+    With `alternatives`, so many of the best decompositions are also drawn side by side.
+
     Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
     """
-    work = _start(config_path, overrides, until, progress)
+    work = _start(config_path, overrides, until, progress, alternatives)
     target = target if target is not None else Path("build") / work.config.name
     check_target(target)
     if not force and (earlier := _same_build(target, work)) is not None:
@@ -96,7 +107,9 @@ def check(config_path: Path, overrides: Sequence[str] = (), progress: Progress =
     return Build(work.report, work.timings_s, None)
 
 
-def _start(config_path: Path, overrides: Sequence[str], until: Stage, progress: Progress) -> _Work:
+def _start(
+    config_path: Path, overrides: Sequence[str], until: Stage, progress: Progress, alternatives: int = 0
+) -> _Work:
     config = load_config(config_path, overrides)
     drawing_path = config_path.parent / config.drawing
     if not drawing_path.is_file():
@@ -105,8 +118,8 @@ def _start(config_path: Path, overrides: Sequence[str], until: Stage, progress: 
             str(drawing_path),
             f"`drawing:` in {config_path.name} is relative to the config",
         )
-    work = _Work(config, drawing_path, until, progress)
-    work.report.update(reports.head(config, sha256(drawing_path)), until=until)
+    work = _Work(config, drawing_path, until, progress, alternatives)
+    work.report.update(reports.head(config, sha256(drawing_path)), until=until, alternatives=alternatives)
     return work
 
 
@@ -138,7 +151,7 @@ def _run(work: _Work, folder: Path | None) -> None:
     if work.reaches("exports") and folder is not None:
         _export(work, folder)
     if folder is not None:
-        _write(folder / "config.lock.yaml", lock_text(work.config))
+        write_text(folder / "config.lock.yaml", lock_text(work.config))
 
 
 def _trace(work: _Work, folder: Path | None) -> None:
@@ -149,10 +162,10 @@ def _trace(work: _Work, folder: Path | None) -> None:
 
         work.drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
         work.findings += findings
-        work.report["drawing"] = reports.drawing_numbers(work.drawing, 0)
+        work.report["drawing"] = reports.drawing_numbers(work.drawing)
         if folder is not None:
-            _write(folder / "drawing.json", drawing_json(work.drawing))
-            _write(folder / "drawing.svg", drawing_svg(work.drawing))
+            write_text(folder / "drawing.json", drawing_json(work.drawing))
+            write_text(folder / "drawing.svg", drawing_svg(work.drawing))
 
 
 def _decompose(work: _Work, folder: Path | None) -> None:
@@ -164,10 +177,14 @@ def _decompose(work: _Work, folder: Path | None) -> None:
 
         work.solution, findings = decompose(work.drawing, work.config.decomposition)
         work.findings += findings
+        offered = len(work.solution.decomposition.drawing.segments) - len(work.drawing.segments)
+        work.report["drawing"]["bridges_offered"] = offered
         fewest = fewest_possible_wires(graph_of(work.drawing))
         work.report["decomposition"] = reports.decomposition_numbers(work.solution, fewest)
         if folder is not None:
-            _write(folder / "decomposition.json", decomposition_json(work.solution))
+            write_text(folder / "decomposition.json", decomposition_json(work.solution))
+            if work.alternatives:
+                write_alternatives(folder, work.drawing, work.config, work.alternatives)
 
 
 def _draw_wires(work: _Work, folder: Path | None) -> None:
@@ -180,7 +197,7 @@ def _draw_wires(work: _Work, folder: Path | None) -> None:
         work.findings += findings
         work.report["wires"] = reports.wire_numbers(work.wires)
         if folder is not None:
-            _write(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
+            write_text(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
 
 
 def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
@@ -197,39 +214,12 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
 def _export(work: _Work, folder: Path) -> None:
     assert work.solution is not None
     assert work.jigs is not None
+    config, laser = work.config, None
     with work.stage("exports"):
-        from wrapit.exports.preview_png import write_preview
-        from wrapit.instructions.stage import write_instructions
-
-        jigs = work.jigs.jigs
-        shown = jigs[0] if len(jigs) == 1 else None
-        write_preview(
-            folder / "preview.png", work.wires, shown.walls if shown else (), shown.plate if shown else None
-        )
-        if "dxf" in work.config.outputs:
-            _export_plate(work, work.jigs, folder)
-        if "guide" in work.config.outputs:
-            guide = write_instructions(
-                work.solution,
-                work.wires,
-                work.config.guide,
-                work.config.wire,
-                name=work.config.name,
-                jigset=work.jigs,
-            )
-            _write(folder / "guide.html", guide)
-
-
-def _export_plate(work: _Work, jigs: JigSet, folder: Path) -> None:
-    from wrapit.exports.plate_files import write_plate_files
-    from wrapit.jig.laser_stage import build_laser_jig
-
-    config = work.config
-    laser, findings = build_laser_jig(work.wires, jigs, config.jig, config.plate)
-    work.findings += findings
-    work.report["plate"] = reports.plate_numbers(laser)
-    write_plate_files(folder, laser, config.plate)
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8", newline="\n")
+        write_previews(folder, work.wires, work.jigs)
+        if "dxf" in config.outputs:
+            laser, findings = write_plate(folder, work.wires, work.jigs, config)
+            work.findings += findings
+            work.report["plate"] = reports.plate_numbers(laser)
+        if "guide" in config.outputs:
+            write_guide(folder, work.solution, work.wires, work.jigs, laser, config)
