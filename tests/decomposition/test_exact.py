@@ -89,8 +89,9 @@ def test_drawings_of_every_kind_are_proven(family: str, segments: int) -> None:
 
 def test_beyond_the_budget_the_bound_is_still_true() -> None:
     unproven = 0
-    for seed in range(40):
-        graph = FAMILIES["cactus"](np.random.default_rng(seed), 6)
+    for seed in range(30):
+        graph = random_multigraph(np.random.default_rng(seed), 6, 2 + seed % 2)
+        graph = graph.subgraph(max(pieces(graph), key=len))
         answer = solve_exactly(Problem(graph, WEIGHTS), 0)
         best = best_by_trying(graph, WEIGHTS)
         energy = energy_by_definition(graph, answer.mate, WEIGHTS)

@@ -46,7 +46,8 @@ def certified(problem: Problem) -> Answer:
                 rounds += found.rounds
                 heapq.heappush(cases, (max(found.bound, parent.bound), rounds, found))
                 best = min(best, found, key=lambda found: found.energy)
-    return Answer(best.mate, rounds, min(best.energy, cases[0][0] if cases else math.inf))
+    bound = min(best.energy, cases[0][0] if cases else math.inf)
+    return Answer(best.mate, rounds, bound, best.energy - bound < _CLOSE)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import Energy, Trail, Traversal, Weights
@@ -41,10 +42,9 @@ def energy_of_trails(graph: Graph, trails: Sequence[Trail], weights: Weights, as
 def bends_of(graph: Graph, trail: Trail) -> list[float]:
     """Bend angle in radians at each junction that the trail passes."""
     angles = []
-    for before, after in zip(trail.traversals, trail.traversals[1:], strict=False):
-        first, second = graph.tangents[_arrival(before)], graph.tangents[_departure(after)]
-        cross = first[0] * second[1] - first[1] * second[0]
-        angles.append(math.pi - abs(math.atan2(cross, float(first @ second))))
+    for before, after in pairwise(trail.traversals):
+        (ax, ay), (bx, by) = graph.directions[_arrival(before)], graph.directions[_departure(after)]
+        angles.append(math.pi - abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by)))
     return angles
 
 

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from wrapit.decomposition.cases import certified
 from wrapit.decomposition.problem import Answer, Problem
 
-_CLOSE = 1e-9
-
 
 def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]] = ()) -> Answer | None:
     """The best matching of one connected piece that differs from `others`, with the bound that proves it.
@@ -17,8 +15,7 @@ def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]]
     programming, which starts where local reasoning ends.
     """
     known = certified(problem)
-    gap = problem.energy(known.mate).total - (known.lower_bound or 0.0)
-    if gap < _CLOSE and problem.is_allowed(known.mate) and not others:
+    if known.proven and problem.is_allowed(known.mate) and not others:
         return known
     # Loads scipy's optimisers, which takes longer than most drawings.
     from wrapit.decomposition.milp import solve_by_cuts

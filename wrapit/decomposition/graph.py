@@ -47,6 +47,11 @@ class Graph:
         return tuple(map(tuple, incident))
 
     @cached_property
+    def directions(self) -> list[tuple[float, float]]:
+        """The tangents as plain numbers, which are quicker to read one by one."""
+        return [(x, y) for x, y in self.tangents.tolist()]
+
+    @cached_property
     def bends_rad(self) -> tuple[dict[int, float], ...]:
         """For each half-edge, the bend angle in [0, π] towards each one that a wire may continue into.
 

@@ -58,7 +58,7 @@ def solve_by_cuts(
             break
     if best is None:
         return Answer(known.mate, rounds, bound)
-    return Answer(best, rounds, min(bound, least))
+    return Answer(best, rounds, min(bound, least), least - bound <= _CLOSE)
 
 
 def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:

@@ -42,9 +42,11 @@ class Problem:
 class Answer:
     """A matching, and what the solver proved about it.
 
-    `iterations` counts the solver's own steps; `lower_bound` is None where nothing was proved.
+    `iterations` counts the solver's own steps; `lower_bound` is None where nothing was proved;
+    `proven` says that the energy meets it.
     """
 
     mate: tuple[int, ...]
     iterations: int
     lower_bound: float | None = None
+    proven: bool = False

@@ -28,9 +28,14 @@ class Link:
     groups: tuple[Group, ...]
 
     @cached_property
+    def rank(self) -> int:
+        """Number of branches of a tree that it does the work of."""
+        return sum(len(group) - 1 for group in self.groups)
+
+    @cached_property
     def share(self) -> float:
-        """Loss for each branch of the tree that it does the work of."""
-        return self.loss / sum(len(group) - 1 for group in self.groups)
+        """Loss for each of them."""
+        return self.loss / self.rank
 
 
 class Branch(NamedTuple):
@@ -110,27 +115,34 @@ def spanning_tree(
 def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, list[Branch]]:
     """A drawing of rings only has to be opened somewhere: the least bound over the places to do it.
 
-    Returns the bound, the link that opens, and the tree that links the rest.
-
-    The junction that opens pays its whole loss, not the share that the spanning tree counts.
+    Returns the bound, the link that opens, and the tree that links the rest. The junction that opens
+    pays its whole loss, not the share that the spanning tree counts.
     """
     plain, tree = spanning_tree(links, rings)
-    rooted = _Rooted(tree)
-    openings = [
-        (link.loss + plain - rooted.spared(link.groups), link)
-        for link in links
-        if any(group[0] == GROUND for group in link.groups)
-    ]
+    dearest = max(branch.link.share for branch in tree)
+    openings = [link for link in links if any(group[0] == GROUND for group in link.groups)]
     if not openings:
         raise ValueError("no junction of a drawing of rings can be opened")
-    best: tuple[float, Link, list[Branch]] | None = None
-    for optimistic, link in sorted(openings, key=lambda opening: (opening[0], opening[1].junction)):
-        if best is not None and optimistic > best[0] - 1e-12:
+
+    def at_least(link: Link) -> float:
+        return link.loss + plain - dearest * link.rank
+
+    def opened(link: Link) -> tuple[float, Link, list[Branch]]:
+        rest, rest_tree = spanning_tree(links, rings, link)
+        return link.loss + rest, link, rest_tree
+
+    # Two bounds, a rough and a fine one, leave few openings to be worked out.
+    best = opened(min(openings, key=at_least))
+    rooted = _Rooted(tree)
+    hopeful = [
+        (link.loss + plain - rooted.spared(link.groups), link.junction, link)
+        for link in openings
+        if at_least(link) < best[0]
+    ]
+    for bound, _, link in sorted(hopeful, key=lambda opening: opening[:2]):
+        if bound > best[0] - 1e-12:
             break
-        rest, tree = spanning_tree(links, rings, link)
-        if best is None or link.loss + rest < best[0] - 1e-12:
-            best = (link.loss + rest, link, tree)
-    assert best is not None
+        best = min(best, opened(link), key=lambda found: found[0])
     return best
 
 
