@@ -1,151 +1,116 @@
 """Crossings that thinning tore apart: two forks with a shared stretch between them, put together again.
 
-Where two strokes cross at an acute angle, their ink is one stroke for up to eleven widths. Each shared
-stretch gets two explanations: the strokes cross in it, or they truly run together. Both are drawn again,
-and the one whose width along the stretch agrees with the ink is kept.
+Where two strokes cross at an acute angle, their ink is one stroke for up to eleven widths.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from wrapit.drawing.centring import Line
-from wrapit.drawing.junctions import Arm, Through, arm, through, turn
-from wrapit.drawing.network import Network, StrandEnd
-from wrapit.geometry import FloatArray, unit
-
-# In stroke widths.
-_LONGEST = 30.0
-_SHORT = 2.5
-_MISFIT = 0.28
-_BETTER = 0.6
-_EXCESS = 0.15
-_TURN_RAD = np.radians(30)
-_TURN_SEEN_RAD = np.radians(65)
-
-
-@dataclass(frozen=True, eq=False)
-class _Crossing:
-    """A way to explain a shared stretch by two strokes that cross in it."""
-
-    strand: int
-    at: FloatArray
-    cost: float
-    pairs: tuple[tuple[StrandEnd, StrandEnd], ...]
+from wrapit.drawing.centring import Line, lengths
+from wrapit.drawing.joining import rejoin
+from wrapit.drawing.junctions import Arm, Through
+from wrapit.drawing.network import Network
+from wrapit.drawing.shared import Explanation, explain, worth_explaining
+from wrapit.geometry import FloatArray
 
 
 def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> None:
-    """Makes one node of each two forks between which two strokes cross."""
+    """Makes crossings of forks between which two strokes cross, and parts strokes that only touch."""
     found = []
     for strand, s in net.strands.items():
         if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
             continue
-        line = lines[strand]
-        if line.length > _LONGEST * width_px or (
-            line.length > _SHORT * width_px and _excess(line, width_px) < _EXCESS
-        ):
-            continue
-        crossing = _explained(net, lines, strand, width_px)
-        if crossing is not None:
-            found.append(crossing)
+        if worth_explaining(lines[strand], width_px):
+            explanation = explain(net, lines, strand, width_px)
+            if explanation is not None:
+                found.append(explanation)
     taken: set[int] = set()
-    for crossing in sorted(found, key=lambda c: (c.cost, c.strand)):
-        s = net.strands[crossing.strand]
+    for explanation in sorted(found, key=lambda e: (e.cost, e.strand)):
+        strand = explanation.strand
+        arms = {arm.strand for pair in explanation.pairs for arm in pair}
+        if strand not in net.strands or not arms <= net.strands.keys():
+            continue
+        s = net.strands[strand]
         if s.start in taken or s.end in taken:
             continue
         taken |= {s.start, s.end}
-        node = net.merge([s.start, s.end], crossing.at, [crossing.strand])
-        net.through[node] = crossing.pairs
+        if explanation.kind == "cross":
+            _cross(net, lines, explanation)
+        elif explanation.kind == "braid":
+            _braid(net, lines, explanation, width_px)
+        elif len(arms) == 4:
+            _part(net, lines, explanation, width_px)
 
 
-def _excess(line: Line, width_px: float) -> float:
-    """How much wider (stroke widths) the ink along a line is than one stroke, on average."""
-    width = np.where(np.isfinite(line.width), np.minimum(line.width, 2 * width_px), 2 * width_px)
-    return float(width.mean()) / width_px - 1
+def _cross(net: Network, lines: dict[int, Line], explanation: Explanation) -> None:
+    s = net.strands[explanation.strand]
+    del lines[explanation.strand]
+    node = net.merge([s.start, s.end], explanation.meetings[0].at, [explanation.strand])
+    net.through[node] = tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in explanation.pairs)
 
 
-def _explained(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> _Crossing | None:
-    s, line = net.strands[strand], lines[strand]
-    heads = _others(net, lines, s.start, strand, width_px)
-    tails = _others(net, lines, s.end, strand, width_px)
-    if len(heads) != 2 or len(tails) != 2:
-        return None
-    best = None
-    for order in ((0, 1), (1, 0)):
-        pairs = [(heads[0], tails[order[0]]), (heads[1], tails[order[1]])]
-        if any(a.strand == b.strand and a.end == b.end for a, b in pairs):
-            continue
-        turns = [turn(a, b) for a, b in pairs]
-        if max(turns) > _TURN_SEEN_RAD:
-            continue
-        curves = [through(a, b) for a, b in pairs]
-        crossed, together = _misfits(line, _apart(curves, line), width_px)
-        cost = sum(value**2 for value in turns)
-        if line.length > _SHORT * width_px:
-            cost += (2 * crossed) ** 2
-        if best is None or cost < best[0]:
-            best = (cost, max(turns), curves, pairs, crossed, together)
-    if best is None:
-        return None
-    cost, sharpest, curves, pairs, crossed, together = best
-    at = _meeting(curves[0], curves[1], width_px)
-    seen = line.length > 0.8 * width_px and crossed < _MISFIT and crossed < _BETTER * together
-    if at is None or sharpest > (_TURN_SEEN_RAD if seen else _TURN_RAD):
-        return None
-    if line.length > _SHORT * width_px and not seen:
-        return None
-    return _Crossing(strand, at, cost, tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in pairs))
+def _braid(net: Network, lines: dict[int, Line], explanation: Explanation, width_px: float) -> None:
+    """Two strokes that cross at both ends of the stretch: two strands between two crossings."""
+    s = net.strands[explanation.strand]
+    del lines[explanation.strand]
+    net.drop_strand(explanation.strand)
+    first, last = explanation.meetings
+    net.nodes[s.start], net.nodes[s.end] = first.at, last.at
+    inner = []
+    for k, curve in enumerate(explanation.curves):
+        points = _sampled(curve, first.along[k], last.along[k], width_px)
+        strand = net.add_strand(s.start, s.end, points)
+        lines[strand] = _clean(points, width_px)
+        inner.append(strand)
+    starts = [(a.strand, a.end) for a, _ in explanation.pairs]
+    ends = [(b.strand, b.end) for _, b in explanation.pairs]
+    net.through[s.start] = tuple((arm, (strand, 0)) for arm, strand in zip(starts, inner, strict=True))
+    net.through[s.end] = tuple((arm, (strand, 1)) for arm, strand in zip(ends, inner, strict=True))
 
 
-def _meeting(a: Through, b: Through, width_px: float) -> FloatArray | None:
-    """Where two curves cross between their arms, or nothing."""
-    first, second = (
-        (np.linspace(-0.5, 0.5, 41) * (curve.gap + width_px))[:, None] ** np.arange(len(curve.coefficients))
-        @ curve.coefficients
-        for curve in (a, b)
+def _part(net: Network, lines: dict[int, Line], explanation: Explanation, width_px: float) -> None:
+    """Two strokes that only touch: each goes on by itself."""
+    s, shared = net.strands[explanation.strand], lines.pop(explanation.strand)
+    middle = shared.points[len(shared.points) // 2]
+    net.tell(
+        "note",
+        "touching",
+        middle,
+        "two strokes touch side by side without crossing; they are taken as apart",
+        "leave white paper between them, or let them cross",
     )
-    d, e = np.diff(first, axis=0)[:, None], np.diff(second, axis=0)[None]
-    between = second[None, :-1] - first[:-1, None]
-    det = d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0]
-    safe = np.where(np.abs(det) < 1e-12, np.inf, det)
-    s = (between[..., 0] * e[..., 1] - between[..., 1] * e[..., 0]) / safe
-    t = (between[..., 0] * d[..., 1] - between[..., 1] * d[..., 0]) / safe
-    hits = np.argwhere((s >= 0) & (s < 1) & (t >= 0) & (t < 1))
-    if len(hits) != 1:
-        return None
-    i, j = hits[0]
-    return first[i] + s[i, j] * d[i, 0]
+    net.drop_strand(explanation.strand)
+    for (a, b), curve in zip(explanation.pairs, explanation.curves, strict=True):
+        node = net.add_node(curve.at(0.0)[0])
+        half = (curve.gap / 2) - width_px / 8
+        lines[a.strand] = _extended(lines[a.strand], a, _sampled(curve, 0.0, -half, width_px), width_px)
+        lines[b.strand] = _extended(lines[b.strand], b, _sampled(curve, 0.0, half, width_px), width_px)
+        net.reroute(a.strand, a.end, node)
+        net.reroute(b.strand, b.end, node)
+        rejoin(net, lines, node)
+    net.drop_lonely()
 
 
-def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
-    return [arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand]
+def _sampled(curve: Through, start: float, end: float, width_px: float) -> FloatArray:
+    count = max(3, int(abs(end - start) / max(width_px / 8, 1.0)))
+    s = np.linspace(start, end, count)
+    return s[:, None] ** np.arange(len(curve.coefficients)) @ curve.coefficients
 
 
-def _apart(curves: list[Through], line: Line) -> FloatArray:
-    """Signed distance between two curves, across every other point of the line between the forks."""
-    tangent = unit(np.gradient(line.points, axis=0))[::2]
-    normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
-    points = line.points[::2]
-    offsets = []
-    for curve in curves:
-        reach = 0.75 * curve.gap + line.length / 2
-        s = np.linspace(-reach, reach, 61)
-        places = (s[:, None] ** np.arange(len(curve.coefficients))) @ curve.coefficients
-        difference = places[None] - points[:, None]
-        along = np.abs((difference * tangent[:, None]).sum(axis=2))
-        nearest = np.argmin(along + 0.2 * np.linalg.norm(difference, axis=2), axis=1)
-        offsets.append((difference[np.arange(len(nearest)), nearest] * normal).sum(axis=1))
-    return offsets[0] - offsets[1]
+def _clean(points: FloatArray, width_px: float) -> Line:
+    return Line(points, np.full(len(points), width_px), np.ones(len(points), dtype=bool), lengths(points))
 
 
-def _misfits(line: Line, apart: FloatArray, width_px: float) -> tuple[float, float]:
-    """How far (stroke widths) the ink's width is from that of two crossing strokes, and from one's."""
-    width = line.width[::2]
-    known = np.isfinite(width)
-    if not known.any():
-        return 0.0, 0.0
-    measured = np.minimum(width[known], 2 * width_px) / width_px
-    crossed = np.minimum(1 + np.abs(apart[known]) / width_px, 2.0)
-    return float(np.abs(measured - crossed).mean()), float(np.abs(measured - 1).mean())
+def _extended(line: Line, arm: Arm, lead: FloatArray, width_px: float) -> Line:
+    """The clean part of a line with points that lead up to it at one end, instead of what was there."""
+    backwards = arm.end == 1
+    points = line.points[::-1] if backwards else line.points
+    width = line.width[::-1] if backwards else line.width
+    clean = line.clean[::-1] if backwards else line.clean
+    chain = np.vstack([lead, points[arm.cut :]])
+    widths = np.concatenate([np.full(len(lead), width_px), width[arm.cut :]])
+    flags = np.concatenate([np.ones(len(lead), dtype=bool), clean[arm.cut :]])
+    if backwards:
+        chain, widths, flags = chain[::-1], widths[::-1], flags[::-1]
+    return Line(chain, widths, flags, lengths(chain))

@@ -12,7 +12,6 @@ from wrapit.drawing.meetings import crossings, touches
 from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.bezier import split
 
-
 _STUB = 0.63
 
 
