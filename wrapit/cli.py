@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import sys
 from collections.abc import Callable
@@ -131,7 +132,8 @@ def init(
     from wrapit.errors import ConfigError
 
     target = output or drawing.with_suffix(".yaml")
-    text = propose_config(drawing)
+    relative = os.path.relpath(drawing, target.parent)
+    text = propose_config(drawing).replace(f"drawing: {drawing.name}", f"drawing: {relative}", 1)
     if target.exists():
         raise ConfigError("exists already", str(target), "choose another file with -o")
     try:
