@@ -161,6 +161,29 @@ def check(
 
 
 @app.command()
+def coupon(
+    config: Annotated[
+        Path | None,
+        typer.Argument(metavar="[CONFIG]", help="Take wire, kerf and clearance from this config."),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where to write.")] = Path(
+        "build"
+    ),
+    overrides: Overrides = None,
+) -> None:
+    """Write test pieces: a kerf coupon to cut, a clearance coupon to print."""
+    from wrapit.config import Config, load_config
+    from wrapit.pipeline.coupons import write_coupons
+
+    chosen = load_config(config, overrides or ()) if config else Config(drawing="none")
+    cut, printed = write_coupons(chosen, output)
+    print(
+        f"cut {cut}: the slot that takes the wire without play tells plate.kerf, the pocket of the key plate.fit"
+    )
+    print(f"print {printed}: the narrowest channel that takes the wire easily tells jig.clearance")
+
+
+@app.command()
 def schema() -> None:
     """Print the JSON schema of the config."""
     from wrapit.config import schema as config_schema
