@@ -177,9 +177,8 @@ def coupon(
 
     chosen = load_config(config, overrides or ()) if config else Config(drawing="none")
     cut, printed = write_coupons(chosen, output)
-    print(
-        f"cut {cut}: the slot that takes the wire without play tells plate.kerf, the pocket of the key plate.fit"
-    )
+    print(f"cut {cut}: the slot that takes the wire without play tells plate.kerf,")
+    print("    the pocket that takes the key tells plate.fit")
     print(f"print {printed}: the narrowest channel that takes the wire easily tells jig.clearance")
 
 
