@@ -291,6 +291,16 @@ def test_thin_wall_sheet_is_stacked_and_said_so() -> None:
     assert laser.wall_height_mm == pytest.approx(3.0)
 
 
+def test_sheets_of_different_thickness_say_which_they_are() -> None:
+    laser, _ = laser_of(hairpin(), PlateConfig())
+    assert [sheet.thickness_mm for sheet in laser.sheets] == [3.0, 6.0]
+    three, six = (sheet.marks for sheet in laser.sheets)
+    assert three
+    assert len(three) != len(six) or any(a.edges != b.edges for a, b in zip(three, six, strict=True))
+    same, _ = laser_of(hairpin(), PlateConfig(wall_sheet="3 mm"))
+    assert all(not sheet.marks for sheet in same.sheets)
+
+
 def test_wire_numbers_are_engraved_where_there_is_room() -> None:
     wires = woven(4)
     plate = Region(rounded_rectangle(-20, -20, 60, 60, 0))

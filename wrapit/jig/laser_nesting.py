@@ -11,7 +11,7 @@ from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, Line, Loop
 from wrapit.jig.laser_model import Contour, LaserPart, LaserSheet, Placed
-from wrapit.jig.laser_text import engraved_text
+from wrapit.jig.laser_text import engraved_text, text_size_mm
 
 # Packing counts in whole hundredths of a millimetre.
 _UNITS_PER_MM = 100
@@ -28,38 +28,41 @@ def nest(
     """
     sheets: list[LaserSheet] = []
     findings: list[Finding] = []
-    for thickness_mm in sorted({part.thickness_mm for part in parts}):
+    thicknesses = sorted({part.thickness_mm for part in parts})
+    # Sheets of different thickness say which they are, so that none is cut from the wrong one.
+    strip_mm = STRIP_MM if config.reference_bar or len(thicknesses) > 1 else 0.0
+    for thickness_mm in thicknesses:
         pieces = [part for part in parts if part.thickness_mm == thickness_mm for _ in range(part.copies)]
-        for group, width_mm, height_mm in _groups(pieces, config, findings):
-            marks = _marks(thickness_mm, width_mm, config)
+        for group, width_mm, height_mm in _groups(pieces, config, strip_mm, findings):
+            marks = _marks(thickness_mm, width_mm, config) if strip_mm else ()
             sheets.append(LaserSheet(len(sheets) + 1, thickness_mm, width_mm, height_mm, tuple(group), marks))
     return tuple(sheets), tuple(findings)
 
 
 def _groups(
-    pieces: Sequence[LaserPart], config: PlateConfig, findings: list[Finding]
+    pieces: Sequence[LaserPart], config: PlateConfig, strip_mm: float, findings: list[Finding]
 ) -> list[tuple[list[Placed], float, float]]:
     """For each sheet its placed parts, and its size."""
     boxes = [_box(part) for part in pieces]
     sizes = [high - low for low, high in boxes]
     room = np.array([config.sheet_width, config.sheet_height]) - 2 * config.spacing
-    room[1] -= _strip_mm(config)
+    room[1] -= strip_mm
     groups = []
     small = []
     for index, size in enumerate(sizes):
         if max(size) <= max(room) and min(size) <= min(room):
             small.append(index)
             continue
-        need = size + 2 * config.spacing + [0.0, _strip_mm(config)]
+        need = size + 2 * config.spacing + [0.0, strip_mm]
         findings.append(_too_large(pieces[index], need, config))
-        shift = np.array([config.spacing, config.spacing + _strip_mm(config)]) - boxes[index][0]
+        shift = np.array([config.spacing, config.spacing + strip_mm]) - boxes[index][0]
         groups.append(([_placed(pieces[index], 0, shift)], float(need[0]), float(need[1])))
     packed = _packed([sizes[index] for index in small], room, config.spacing)
     for sheet in packed:
         placed = []
         for which, x_mm, y_mm, turned in sheet:
             part, (low, high) = pieces[small[which]], boxes[small[which]]
-            corner = np.array([x_mm, y_mm]) + config.spacing + [0.0, _strip_mm(config)]
+            corner = np.array([x_mm, y_mm]) + config.spacing + [0.0, strip_mm]
             # A quarter turn to the left brings the box's upper left corner to the lower left.
             origin = np.array([-high[1], low[0]]) if turned else low
             placed.append(_placed(part, int(turned), corner - origin))
@@ -117,21 +120,16 @@ def _too_large(part: LaserPart, need: FloatArray, config: PlateConfig) -> Findin
     )
 
 
-def _strip_mm(config: PlateConfig) -> float:
-    """Height of the strip along the lower edge that the sheet's marks need."""
-    return STRIP_MM if config.reference_bar else 0.0
-
-
 def _marks(thickness_mm: float, width_mm: float, config: PlateConfig) -> tuple[Contour, ...]:
-    """The bar of 100 mm with its ticks, and the thickness of the sheet."""
-    if not config.reference_bar:
-        return ()
+    """The thickness of the sheet, and the bar of 100 mm with its ticks if it is wanted."""
     x, y = config.spacing, config.spacing + 1.0
+    text = f"sheet of {thickness_mm:g} mm"
     ends = [(x + offset, y) for offset in (0.0, min(BAR_MM, width_mm - 2 * x))]
-    bar = Line(*ends)
-    ticks = [Line((end[0], end[1] - 1), (end[0], end[1] + 1)) for end in ends]
-    text = f"{ends[1][0] - x:.0f} mm   sheet {thickness_mm:g} mm"
+    lines: list[Line] = []
+    if config.reference_bar:
+        lines = [Line(*ends), *(Line((end[0], end[1] - 1), (end[0], end[1] + 1)) for end in ends)]
+        text = f"{ends[1][0] - x:.0f} mm   {text}"
     return (
-        *(Contour("ENGRAVE", (line,)) for line in (bar, *ticks)),
-        *engraved_text(text, (x + 25.0, y + 2.6), 2.0),
+        *(Contour("ENGRAVE", (line,)) for line in lines),
+        *engraved_text(text, (x + text_size_mm(text, 2.0)[0] / 2 + 1.0, y + 2.6), 2.0),
     )
