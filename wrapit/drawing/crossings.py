@@ -71,7 +71,7 @@ def _braid(net: Network, lines: dict[int, Line], explanation: Explanation, width
 
 def _part(net: Network, lines: dict[int, Line], explanation: Explanation, width_px: float) -> None:
     """Two strokes that only touch: each goes on by itself."""
-    s, shared = net.strands[explanation.strand], lines.pop(explanation.strand)
+    shared = lines.pop(explanation.strand)
     middle = shared.points[len(shared.points) // 2]
     net.tell(
         "note",
