@@ -35,23 +35,31 @@ class CurveSet:
     """Several chains of cubics, cut into short pieces that turn little.
 
     `pieces` (n, 4, 2) are all pieces in order, `curve` (n,) the chain each belongs to. A place on any
-    curve is one number: piece index + parameter; places grow along each curve.
+    curve is one number: piece index + parameter; places grow along each curve. `cubics` (k, 4, 2) are the
+    chains' own Béziers; piece i covers the parameters from `share[i, 0]` to `share[i, 1]` of `cubic[i]`.
     """
 
     pieces: FloatArray
     curve: IntArray
     first: IntArray
     last: IntArray
+    cubics: FloatArray
+    cubic: IntArray
+    share: FloatArray
 
     @staticmethod
     def of(chains: Sequence[BezierChain]) -> CurveSet:
         """The set of these chains, in their order."""
-        parts = [_short_pieces(chain.points) for chain in chains]
-        counts = np.array([len(part) for part in parts])
-        ends = np.cumsum(counts)
-        return CurveSet(
-            np.concatenate(parts), np.repeat(np.arange(len(parts)), counts), ends - counts, ends - 1
+        cubics = np.concatenate([chain.points for chain in chains])
+        parts = [_short_pieces(cubic) for cubic in cubics]
+        cubic = np.repeat(np.arange(len(cubics)), [len(part) for part in parts])
+        share = np.concatenate(
+            [np.column_stack([np.arange(n), np.arange(n) + 1]) / n for n in map(len, parts)]
         )
+        curve = np.repeat(np.arange(len(chains)), [len(chain) for chain in chains])[cubic]
+        ends = np.searchsorted(curve, np.arange(len(chains)), side="right")
+        first = np.searchsorted(curve, np.arange(len(chains)), side="left")
+        return CurveSet(np.concatenate(parts), curve, first, ends - 1, cubics, cubic, share)
 
     def start_of(self, curve: int) -> float:
         """Place of the curve's first point."""
@@ -65,6 +73,12 @@ class CurveSet:
         """Piece and parameter of places on the given curves; a curve's end is on its last piece."""
         piece = np.clip(np.floor(at).astype(np.int64), self.first[curve], self.last[curve])
         return piece, at - piece
+
+    def cubic_place(self, curve: int, at: float) -> tuple[int, float]:
+        """The chain's own Bézier and the parameter in it at a place."""
+        pieces, t = self.split_place(np.array([curve]), np.array([at]))
+        low, high = self.share[pieces[0]]
+        return int(self.cubic[pieces[0]]), float(low + t[0] * (high - low))
 
     def frame(self, curve: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Points (m, 2), unit tangents (m, 2) and signed curvatures (m,) at places."""
@@ -116,25 +130,22 @@ class CurveSet:
         return float(np.linalg.norm(middles - (ends[:, 1:] + ends[:, :-1]) / 2, axis=2).max()) + 1e-6
 
 
-def _short_pieces(cubics: FloatArray) -> FloatArray:
-    """The cubics (n, 4, 2), each cut in 1, 2, 4 … equal parts until short and nearly straight."""
-    parts = []
-    for cubic in cubics:
-        legs = np.diff(cubic, axis=0)
-        length = float(np.linalg.norm(legs, axis=1).sum())
-        directions = legs[np.linalg.norm(legs, axis=1) > 1e-9 * max(length, 1e-9)]
-        turning = 0.0
-        if len(directions) > 1:
-            a, b = directions[:-1], directions[1:]
-            crosses = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-            turning = float(np.abs(np.arctan2(crosses, (a * b).sum(axis=1))).sum())
-        need = max(length / MAX_PIECE_MM, turning / MAX_PIECE_TURNING_RAD, 1.0)
-        part = cubic[None]
-        for _ in range(int(np.ceil(np.log2(need)))):
-            left, right = split(part, 0.5)
-            part = np.stack([left, right], axis=1).reshape(-1, 4, 2)
-        parts.append(part)
-    return np.concatenate(parts)
+def _short_pieces(cubic: FloatArray) -> FloatArray:
+    """The cubic (4, 2), cut in 1, 2, 4 … equal parts until short and nearly straight: (n, 4, 2)."""
+    legs = np.diff(cubic, axis=0)
+    length = float(np.linalg.norm(legs, axis=1).sum())
+    directions = legs[np.linalg.norm(legs, axis=1) > 1e-9 * max(length, 1e-9)]
+    turning = 0.0
+    if len(directions) > 1:
+        a, b = directions[:-1], directions[1:]
+        crosses = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        turning = float(np.abs(np.arctan2(crosses, (a * b).sum(axis=1))).sum())
+    need = max(length / MAX_PIECE_MM, turning / MAX_PIECE_TURNING_RAD, 1.0)
+    part = cubic[None]
+    for _ in range(int(np.ceil(np.log2(need)))):
+        left, right = split(part, 0.5)
+        part = np.stack([left, right], axis=1).reshape(-1, 4, 2)
+    return part
 
 
 def _values(cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -109,7 +109,10 @@ class Outliner:
 
     def _edges(self, run: Run, start: float, end: float, first: FloatArray, last: FloatArray) -> list[Edge]:
         if run.parallel is None:
-            return self._free(np.concatenate([first[None], run.points, last[None]]))
+            # A point this near to the handover may lie behind it and would fold the outline back.
+            apart = np.minimum(*(np.linalg.norm(run.points - end, axis=1) for end in (first, last)))
+            inner = run.points[apart > 3 * self.slack_mm]
+            return self._free(np.concatenate([first[None], inner, last[None]]))
         if np.linalg.norm(first - last) < 1e-7 and abs(end - start) < 1e-5:
             return []
         return [run.parallel.between(start, end)]

@@ -20,7 +20,7 @@ from wrapit.geometry.loops import Arc, Edge, Line, Point
 BoolArray: TypeAlias = NDArray[np.bool_]
 TOLERANCE_MM = 5e-5
 _ARC_PIECE_RAD = math.pi / 24
-_FOLD_CHECKS = 9
+TURNED_RAD = 0.04
 _CHECKS = np.array([0.25, 0.5, 0.75])
 
 
@@ -62,9 +62,15 @@ class Side:
         """
         folded = np.zeros(len(start), dtype=bool)
         which = np.full(len(start), self.curve)
-        for share in np.linspace(0.0, 1.0, _FOLD_CHECKS):
-            _, _, curvature = self.curves.frame(which, start + share * (end - start))
-            folded |= self.offset_mm * curvature > 1.0
+        ends = [self.curves.frame(which, place)[1] for place in (start, end)]
+        turned = ends[0][:, 0] * ends[1][:, 1] - ends[0][:, 1] * ends[1][:, 0]
+        # Where the curve turns between two places, its sharpest spot may be very short.
+        for turning, checks in ((np.abs(turned) <= TURNED_RAD, 5), (np.abs(turned) > TURNED_RAD, 65)):
+            those = np.flatnonzero(turning)
+            for share in np.linspace(0.0, 1.0, checks) if len(those) else ():
+                place = start[those] + share * (end[those] - start[those])
+                _, _, curvature = self.curves.frame(which[those], place)
+                folded[those] |= self.offset_mm * curvature > 1.0
         return folded
 
     @property
@@ -87,20 +93,23 @@ class Side:
         return chain if end > start else chain.reversed()
 
     def _cubics(self, start: float, end: float) -> BezierChain:
-        inner = np.arange(math.floor(start) + 1, math.ceil(end), dtype=np.float64)
-        places = np.concatenate([[start], inner, [end]])
-        which = np.full(len(places) - 1, self.curve)
-        piece, low = self.curves.split_place(which, places[:-1])
-        high: FloatArray = places[1:] - piece
+        first, begins = self.curves.cubic_place(self.curve, start)
+        last, ends = self.curves.cubic_place(self.curve, end)
+        which = np.arange(first, last + 1)
+        low, high = np.zeros(len(which)), np.ones(len(which))
+        low[0], high[-1] = begins, ends
+        long = high - low > 1e-7
+        long[int(long.argmax())] = True
+        which, low, high = which[long], low[long], high[long]
         while True:
-            cubics = _hermite(self.curves.pieces[piece], low, high, self.offset_mm)
-            bad = _normal_error(self.curves.pieces[piece], low, high, self.offset_mm, cubics) > TOLERANCE_MM
-            bad &= high - low > 1e-3
+            cubics = _hermite(self.curves.cubics[which], low, high, self.offset_mm)
+            error = _normal_error(self.curves.cubics[which], low, high, self.offset_mm, cubics)
+            bad = (error > TOLERANCE_MM) & (high - low > 1e-4)
             if not bad.any():
                 break
             middle = (low + high) / 2
-            order = np.argsort(np.concatenate([np.arange(len(piece)), np.flatnonzero(bad) + 0.5]))
-            piece = np.concatenate([piece, piece[bad]])[order]
+            order = np.argsort(np.concatenate([np.arange(len(which)), np.flatnonzero(bad) + 0.5]))
+            which = np.concatenate([which, which[bad]])[order]
             high = np.concatenate([np.where(bad, middle, high), high[bad]])[order]
             low = np.concatenate([low, middle[bad]])[order]
         cubics[1:, 0] = cubics[:-1, 3]

@@ -6,16 +6,16 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.course import Course
+from wrapit.jig.faces import CLEARANCE_TOLERANCE_MM, plain_finding, wall_face
 from wrapit.jig.model import Jig, JigSet, Part
 from wrapit.jig.plan import plan_jig
 from wrapit.jig.proof import split_finding, support_findings
 from wrapit.jig.solids import jig_solid
 from wrapit.jig.split import grouped
-from wrapit.jig.support import min_wall_to_wire_mm, support_by_wire, turn_support
+from wrapit.jig.support import support_by_wire, turn_support
 from wrapit.wires.model import Wire
 
 COLOUR = "#c8ccd4"
-CLEARANCE_TOLERANCE_MM = 1e-3
 WORTH_A_JIG = 0.1  # support that a badly held wire must gain
 
 
@@ -58,7 +58,8 @@ class _Planned:
     def __init__(self, wires: tuple[Wire, ...], config: JigConfig, name: str) -> None:
         self.course = Course.of(wires, config)
         self.plan, self.findings = plan_jig(wires, config, name)
-        self.walls = tuple(self.course.outliner.region(wall.outline) for wall in self.plan.walls)
+        self.faces = tuple(wall_face(self.course, wall) for wall in self.plan.walls)
+        self.walls = tuple(face.region for face in self.faces)
         self.support = turn_support(self.course, self.walls)
         self.by_wire = support_by_wire(self.support)
 
@@ -77,12 +78,13 @@ def _set(
     jigs = tuple(_built(part, config) for part in parts)
     findings = [*said]
     for part in parts:
-        findings += [*part.findings, *support_findings(part.course, part.plan, part.support, config)]
+        findings += [*part.findings, *plain_finding(part.faces, part.plan.name)]
+        findings += [*support_findings(part.course, part.plan, part.support, config)]
     return JigSet("single" if len(jigs) == 1 else "per-wire", jigs), tuple(findings)
 
 
 def _built(part: _Planned, config: JigConfig) -> Jig:
-    gap = _checked_gap(part.course, part.walls, config)
+    gap = _checked_gap(part, config)
     made = jig_solid(part.plan, part.walls, config)
     from wrapit.kernel.checks import count_solids, size_mm
 
@@ -104,12 +106,12 @@ def _built(part: _Planned, config: JigConfig) -> Jig:
     )
 
 
-def _checked_gap(course: Course, walls: tuple[Region, ...], config: JigConfig) -> float | None:
-    gap, (x, y) = min_wall_to_wire_mm(course, walls)
+def _checked_gap(part: _Planned, config: JigConfig) -> float | None:
+    gap = min((face.gap_mm for face in part.faces), default=None)
     if gap is not None and gap < config.clearance - CLEARANCE_TOLERANCE_MM:
         raise JigError(
             f"a wall comes within {gap:.4f} mm of a wire",
-            f"at ({x:.2f}, {y:.2f}) mm",
+            part.plan.name,
             "change jig.clearance or the size a little",
         )
     return gap

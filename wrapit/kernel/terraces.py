@@ -18,8 +18,8 @@ from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import guarded
 
 NESTING_TOLERANCE_MM = 0.01
-# The kernel's integration along splines is good to about 3e-5; a face that is missing or flipped shows more.
-VOLUME_TOLERANCE = 1e-4
+# The kernel integrates along splines to about 2e-4; a face that is missing or flipped shows more.
+VOLUME_TOLERANCE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
