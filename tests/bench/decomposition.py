@@ -19,7 +19,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from tests.bench.graphs import FAMILIES, all_even, graph_text, random_multigraph
+from tests.bench.graphs import FAMILIES, all_even, composed, graph_text, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
 from tests.decomposition.test_wishes import obeys, some_rules, with_some_bridges
 from wrapit.config.decomposition import AnnealingConfig
@@ -27,8 +27,10 @@ from wrapit.decomposition.annealing import anneal
 from wrapit.decomposition.exact import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import Energy, Weights
+from wrapit.decomposition.piecewise import parts_of, solve_piecewise
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.rules import NO_RULES
+from wrapit.decomposition.trails import trails_of
 
 T = TypeVar("T")
 
@@ -44,6 +46,7 @@ def main() -> None:
     _brute_force(int(os.environ.get("WRAPIT_BENCH_BRUTE", "2400")))
     _against_reference()
     _annealing_against_exact()
+    _known_wires()
 
 
 def _brute_force(count: int) -> None:
@@ -176,6 +179,36 @@ def _annealing_against_exact(graphs: int = 4, runs: int = 8) -> None:
                 f"{family:14}{size:9}{hits / count:9.0%}{least / count:14.0%}{excess / count:13.3f}",
                 flush=True,
             )
+
+
+def _known_wires(pieces_each: int = 12) -> None:
+    """The paper's Figure 5: pieces laid out of known wires, taken apart again; no drawing in between."""
+    print("\npieces composed of known smooth wires: share of the wires that is recovered exactly")
+    print(
+        f"{'wires':>7}{'segments':>10}{'recovered':>11}{'energy of the answer at most that of the truth':>48}"
+    )
+    for count in (5, 8, 12, 16):
+        total = recovered = lower = segments = 0
+        for number in range(pieces_each):
+            graph, truth = composed(np.random.default_rng([count, number]), count)
+            problem = Problem(graph, WEIGHTS)
+            answer = solve_piecewise(
+                problem, parts_of(problem, False), lambda part: solve_exactly(part, BUDGET)
+            )
+            assert answer is not None
+            found = [{t.segment for t in trail.traversals} for trail in trails_of(graph, answer.mate)]
+            straight = [-1] * (2 * graph.segments)
+            for wire in truth:
+                for e in sorted(wire)[:-1]:
+                    straight[2 * e + 1], straight[2 * e + 2] = 2 * e + 2, 2 * e + 1
+            recovered += sum(wire in found for wire in truth)
+            total += len(truth)
+            segments += graph.segments
+            lower += problem.energy(answer.mate).total <= problem.energy(straight).total + 1e-9
+        print(
+            f"{count:7}{segments / pieces_each:10.0f}{recovered / total:11.0%}{lower / pieces_each:48.0%}",
+            flush=True,
+        )
 
 
 def _annealed_energy(problem: Problem, seed: int) -> Energy:

@@ -86,6 +86,36 @@ def cactus(rng: np.random.Generator, segments: int) -> Graph:
     )
 
 
+def composed(rng: np.random.Generator, wires: int) -> tuple[Graph, list[set[int]]]:
+    """A piece laid out of known smooth wires (as in the paper's Figure 5), and the segments of each.
+
+    Each wire is a curve of low frequency; wires meet where they cross at 15° or more.
+    """
+    curves = [_wandering(rng) for _ in range(wires)]
+    stops: list[list[tuple[float, int]]] = [[] for _ in curves]
+    junctions = 0
+    for i, first in enumerate(curves):
+        for k, second in enumerate(curves[: i + 1]):
+            for at, other in _meetings(first, second, same=i == k):
+                stops[i].append((at, junctions))
+                stops[k].append((other, junctions))
+                junctions += 1
+    ends: list[int] = []
+    angles: list[float] = []
+    lengths: list[float] = []
+    truth: list[set[int]] = []
+    for curve, crossings in zip(curves, stops, strict=True):
+        way = [(0.0, junctions), *sorted(crossings), (len(curve) - 1.0, junctions + 1)]
+        junctions += 2
+        truth.append(set(range(len(lengths), len(lengths) + len(way) - 1)))
+        for (at, j), (to, k) in itertools.pairwise(way):
+            ends += [j, k]
+            angles += [_heading(curve, at), _heading(curve, to) + math.pi]
+            lengths.append((to - at) * 0.5)
+    tangents = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return Graph(tuple(ends), tangents, tuple(lengths)), truth
+
+
 FAMILIES: dict[str, Callable[[np.random.Generator, int], Graph]] = {
     "closed curves": closed_curves,
     "strokes": strokes,
@@ -162,3 +192,36 @@ def _straight(points: np.ndarray, edges: Sequence[tuple[int, int]], segments: in
 def _renumbered(ends: Sequence[int]) -> list[int]:
     number: dict[int, int] = {}
     return [number.setdefault(junction, len(number)) for junction in ends]
+
+
+def _wandering(rng: np.random.Generator, count: int = 160) -> np.ndarray:
+    t = np.linspace(0, 1, count)
+    start, slope = rng.uniform(-1, 1, 2), rng.normal(0, 1.2, 2)
+    waves = [
+        rng.normal(0, 0.5 / k, 2) * np.sin(math.pi * k * t + rng.uniform(0, 6))[:, None] for k in (1, 2, 3)
+    ]
+    return start + slope * t[:, None] + sum(waves)
+
+
+def _meetings(first: np.ndarray, second: np.ndarray, *, same: bool) -> list[tuple[float, float]]:
+    """Parameters at which two polylines cross at 15° or more."""
+    a, da = first[:-1, None], np.diff(first, axis=0)[:, None]
+    b, db = second[None, :-1], np.diff(second, axis=0)[None]
+    slope = da[..., 0] * db[..., 1] - da[..., 1] * db[..., 0]
+    offset = b - a
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (offset[..., 0] * db[..., 1] - offset[..., 1] * db[..., 0]) / slope
+        t = (offset[..., 0] * da[..., 1] - offset[..., 1] * da[..., 0]) / slope
+    steep = np.abs(slope) > math.sin(math.radians(15)) * np.hypot(da[..., 0], da[..., 1]) * np.hypot(
+        db[..., 0], db[..., 1]
+    )
+    hits = (s >= 0) & (s < 1) & (t >= 0) & (t < 1) & steep
+    if same:
+        hits &= np.arange(len(hits))[:, None] > np.arange(hits.shape[1])[None] + 1
+    return [(i + s[i, j], j + t[i, j]) for i, j in np.argwhere(hits).tolist()]
+
+
+def _heading(curve: np.ndarray, at: float) -> float:
+    index = min(int(at), len(curve) - 2)
+    way = curve[index + 1] - curve[index]
+    return math.atan2(way[1], way[0])

@@ -106,3 +106,19 @@ def test_the_judge_sees_every_matching() -> None:
     two = Graph((0, 1, 0, 1), np.eye(2).repeat(2, axis=0), (1.0, 1.0))
     assert sum(1 for _ in all_matchings(two)) == 4
     assert sum(energy_by_definition(two, mate, WEIGHTS) is None for mate in all_matchings(two)) == 1
+
+
+def test_integer_programming_prints_nothing(capfd: pytest.CaptureFixture[str]) -> None:
+    graph = FAMILIES["cactus"](np.random.default_rng(214), 214)
+    answer = solve_exactly(Problem(graph, WEIGHTS), BUDGET)
+    assert answer is not None
+    assert not certified(Problem(graph, WEIGHTS)).proven  # else this tests nothing
+    assert answer.proven
+    out, err = capfd.readouterr()
+    assert (out, err) == ("", "")
+
+
+def test_the_same_graph_has_the_same_answer() -> None:
+    graph = FAMILIES["cactus"](np.random.default_rng(3), 120)
+    answers = {solve_exactly(Problem(graph.subgraph(range(120)), WEIGHTS), BUDGET) for _ in range(2)}
+    assert len(answers) == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from wrapit.config.loading import load_config
 from wrapit.config.root import Config
 from wrapit.decomposition.bridges import with_bridges
 from wrapit.decomposition.energy import weak_trails
+from wrapit.decomposition.files import decomposition_json
 from wrapit.decomposition.graph import graph_of
 from wrapit.decomposition.model import Solution
 from wrapit.decomposition.stage import alternatives, decompose
@@ -263,6 +265,17 @@ def test_symmetry_is_kept_when_it_weighs() -> None:
     assert kept.optimal
     assert kept.energy.asymmetry < max(1, solved(lotus(), weights={"symmetry": 1e-9}).energy.asymmetry)
     assert kept.energy.total >= loose.energy.total - 1e-9
+
+
+def test_the_file_speaks_of_symmetry_where_it_was_asked_for() -> None:
+    plain = json.loads(decomposition_json(solved(lotus())))
+    assert "symmetry" not in plain["weights"]
+    assert "asymmetry" not in plain["energy"]
+    kept = json.loads(decomposition_json(solved(lotus(), weights={"symmetry": 0.5})))
+    terms = kept["energy"]
+    assert kept["weights"]["symmetry"] == 0.5
+    total = terms["complexity"] + 0.1 * terms["smoothness_rad"] + 0.9 * terms["robustness"]
+    assert terms["total"] == pytest.approx(total + 0.5 * terms["asymmetry"])
 
 
 def test_alternatives_differ_and_come_in_order() -> None:

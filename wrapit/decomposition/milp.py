@@ -57,7 +57,8 @@ def solve_by_cuts(
         if not model.learn(mate):
             break
     if best is None:
-        return Answer(known.mate, rounds, bound)
+        # Out of budget: what breaks a rule is for the caller to refuse, what repeats another is no answer.
+        return None if others else Answer(known.mate, rounds, bound)
     return Answer(best, rounds, min(bound, least), least - bound <= _CLOSE)
 
 
