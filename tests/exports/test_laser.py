@@ -26,7 +26,7 @@ from wrapit.jig.laser_inlays import polygon_of
 from wrapit.jig.laser_model import LaserJig, LaserPart, Placed
 from wrapit.jig.laser_nesting import nest
 from wrapit.jig.laser_stack import copies_needed
-from wrapit.jig.laser_stage import build_laser_jig
+from wrapit.jig.laser_stage import build_laser_jig, kept_apart
 from wrapit.wires.model import Wire
 
 JIG = JigConfig()
@@ -299,6 +299,15 @@ def test_sheets_of_different_thickness_say_which_they_are() -> None:
     assert len(three) != len(six) or any(a.edges != b.edges for a, b in zip(three, six, strict=True))
     same, _ = laser_of(hairpin(), PlateConfig(wall_sheet="3 mm"))
     assert all(not sheet.marks for sheet in same.sheets)
+
+
+def test_of_two_walls_that_nearly_touch_the_smaller_is_cut_back() -> None:
+    large, small, far = shapely.box(0, 0, 10, 4), shapely.box(10.1, 0, 15, 4), shapely.box(20, 0, 22, 4)
+    first, second, third = kept_apart([large, small, far], 0.9)
+    assert first.equals(large)
+    assert third.equals(far)
+    assert second.distance(first) == pytest.approx(0.9, abs=1e-6)
+    assert second.area == pytest.approx(4 * 4.1, abs=0.01)
 
 
 def test_wire_numbers_are_engraved_where_there_is_room() -> None:

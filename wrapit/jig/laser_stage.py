@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
+from typing import Any
 
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
@@ -23,6 +24,9 @@ from wrapit.wires.model import Turn, Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate.
 HOLE_WEB_MM = 1.2
+# Sheet between two pockets that no wire parts.
+WALL_WEB_MM = 0.8
+_FACE_MM = 0.05
 
 
 def build_laser_jig(
@@ -92,10 +96,28 @@ def plan_stack(
     discs = [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2, quad_segs=32) for pin in pins]
     clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
     polygons, dropped = wall_polygons(course, wide, clear)
-    walls = tuple(course.outliner.region(polygon) for polygon, _ in polygons)
+    least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * course.reach_mm - _FACE_MM)
+    apart = kept_apart([polygon for polygon, _ in polygons], least_mm)
+    walls = tuple(course.outliner.region(polygon) for polygon in apart)
     held = {turn for _, turns in polygons for turn in turns} | {pin.turn for pin in pins}
     loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
     return LaserPlan(walls, holes, pins), (*dropped, *loose)
+
+
+def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
+    """The polygons, with the smaller of two that nearly touch cut back, so that a web stays between them.
+
+    The distance is less than the width of a channel: faces along wires are never cut.
+    """
+    import shapely
+
+    kept = list(polygons)
+    pairs = shapely.STRtree(kept).query(kept, predicate="dwithin", distance=least_mm).T
+    for first, second in sorted((int(a), int(b)) for a, b in pairs if a < b):
+        small, large = sorted((first, second), key=lambda index: (kept[index].area, index))
+        rest = kept[small].difference(kept[large].buffer(least_mm, quad_segs=16))
+        kept[small] = max(shapely.get_parts(rest), key=lambda part: part.area, default=kept[small])
+    return kept
 
 
 def _unheld(wire: Wire, held: Set[Turn]) -> Finding | None:
