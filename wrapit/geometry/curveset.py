@@ -14,6 +14,8 @@ from wrapit.geometry.bezier import BezierChain, evaluate, split
 
 MAX_PIECE_MM = 1.0
 MAX_PIECE_TURNING_RAD = 0.6
+KINK_RAD = 1e-4
+_CURVATURE_SAMPLES = 48
 _STARTS = np.linspace(0.0, 1.0, 9)
 _NEWTON_STEPS = 7
 
@@ -115,6 +117,26 @@ class CurveSet:
         t, distance = _project(points[index], self.pieces[piece])
         near = distance <= reach_mm
         return index[near], piece[near], t[near], distance[near]
+
+    @cached_property
+    def kinks(self) -> tuple[FloatArray, FloatArray]:
+        """Places where a curve's tangent turns at once, in order, and the angles (left is positive), (k,)."""
+        before, after = self.pieces[:-1], self.pieces[1:]
+        arriving, leaving = unit(before[:, 3] - before[:, 2]), unit(after[:, 1] - after[:, 0])
+        cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+        angle = np.arctan2(cross, (arriving * leaving).sum(axis=1))
+        at = np.flatnonzero((np.abs(angle) > KINK_RAD) & (self.curve[:-1] == self.curve[1:])) + 1
+        return at.astype(np.float64), angle[at - 1]
+
+    @cached_property
+    def curvatures(self) -> tuple[FloatArray, FloatArray]:
+        """Places, in order and close together at the ends of pieces, and the signed curvature there, (k,)."""
+        t = (1 - np.cos(np.linspace(0.0, np.pi, _CURVATURE_SAMPLES))) / 2
+        place = (np.arange(len(self.pieces))[:, None] + t).ravel()
+        piece = np.repeat(np.arange(len(self.pieces)), len(t))
+        _, d, dd = _values(self.pieces[piece], np.tile(t, len(self.pieces)))
+        speed = np.maximum(np.linalg.norm(d, axis=1), 1e-12)
+        return place, (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / speed**3
 
     @cached_property
     def _tree(self) -> Any:

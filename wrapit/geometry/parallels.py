@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -20,7 +21,6 @@ from wrapit.geometry.loops import Arc, Edge, Line, Point
 BoolArray: TypeAlias = NDArray[np.bool_]
 TOLERANCE_MM = 5e-5
 _ARC_PIECE_RAD = math.pi / 24
-TURNED_RAD = 0.04
 _CHECKS = np.array([0.25, 0.5, 0.75])
 
 
@@ -58,20 +58,20 @@ class Side:
     def folds(self, start: FloatArray, end: FloatArray) -> BoolArray:
         """Whether the parallel runs backwards somewhere between places (m,) and (m,): (m,).
 
-        It does where the curve bends more sharply than the offset; that part is never on an outline.
+        It does where the curve bends more sharply than the offset, or at once; that part is never on an
+        outline.
         """
-        folded = np.zeros(len(start), dtype=bool)
-        which = np.full(len(start), self.curve)
-        ends = [self.curves.frame(which, place)[1] for place in (start, end)]
-        turned = ends[0][:, 0] * ends[1][:, 1] - ends[0][:, 1] * ends[1][:, 0]
-        # Where the curve turns between two places, its sharpest spot may be very short.
-        for turning, checks in ((np.abs(turned) <= TURNED_RAD, 5), (np.abs(turned) > TURNED_RAD, 65)):
-            those = np.flatnonzero(turning)
-            for share in np.linspace(0.0, 1.0, checks) if len(those) else ():
-                place = start[those] + share * (end[those] - start[those])
-                _, _, curvature = self.curves.frame(which[those], place)
-                folded[those] |= self.offset_mm * curvature > 1.0
-        return folded
+        sharp = self._folding
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        return np.searchsorted(sharp, high) > np.searchsorted(sharp, low)
+
+    @cached_property
+    def _folding(self) -> FloatArray:
+        """Places, in order, where the parallel runs backwards."""
+        kinks, angles = self.curves.kinks
+        places, curvature = self.curves.curvatures
+        folding = [kinks[self.offset_mm * angles > 0], places[self.offset_mm * curvature > 1.0]]
+        return np.sort(np.concatenate(folding))
 
     @property
     def bounds(self) -> tuple[float, float]:
