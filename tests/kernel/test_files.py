@@ -33,7 +33,8 @@ def jig() -> Jig:
 def wire_parts() -> list[FilePart]:
     parts = []
     for wire, colour in zip(wires_of(CHAINS), (COPPER, "#3366cc", "#00aa55"), strict=True):
-        solid, edge = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name)
+        made = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name)
+        solid, edge = made.solid, made.centreline
         parts.append(FilePart(wire.name, solid, colour, (edge,)))
     return parts
 

@@ -31,7 +31,7 @@ def sampled(edge: object, count: int) -> np.ndarray:
     ids=["line", "hairpin", "circle"],
 )
 def test_volume_is_section_times_length(chain: BezierChain) -> None:
-    solid, _ = round_wire(from_chain(chain), D, (), "wire-01")
+    solid = round_wire(from_chain(chain), D, (), "wire-01").solid
     assert is_valid(solid)
     assert volume_mm3(solid) == pytest.approx(AREA * chain.length, rel=2e-4)
     assert size_mm(solid)[2] == pytest.approx(D, abs=1e-3)
@@ -40,14 +40,14 @@ def test_volume_is_section_times_length(chain: BezierChain) -> None:
 def test_corner_is_mitred() -> None:
     parts = [line((0, 0), (10, 0)).points, line((10, 0), (12, 8)).points]
     chain = BezierChain(np.concatenate(parts))
-    solid, _ = round_wire(from_chain(chain), D, (), "wire-01")
+    solid = round_wire(from_chain(chain), D, (), "wire-01").solid
     assert is_valid(solid)
     assert volume_mm3(solid) == pytest.approx(AREA * chain.length, rel=1e-6)
 
 
 def test_flat_centreline_is_the_spline_itself() -> None:
     spline = from_chain(scribble(np.random.default_rng(2), 40, 8))
-    _, edge = round_wire(spline, D, (), "wire-01")
+    edge = round_wire(spline, D, (), "wire-01").centreline
     points = sampled(edge, 300)
     assert np.abs(points[:, :2] - spline.at(np.linspace(*spline.domain, 300))).max() < 1e-12
     assert (points[:, 2] == 0).all()
@@ -56,7 +56,8 @@ def test_flat_centreline_is_the_spline_itself() -> None:
 def test_lifted_centreline_keeps_x_and_y_and_reaches_its_heights() -> None:
     spline = from_chain(arcs((0, 0), 0, (20, 90), (10, -60)))
     lifts = ((0.0, 0.0), (12.0, 0.0), (14.0, 1.0), (16.0, 1.0), (18.0, 0.0), (41.0, 0.0))
-    solid, edge = round_wire(spline, D, lifts, "wire-01")
+    made = round_wire(spline, D, lifts, "wire-01")
+    solid, edge = made.solid, made.centreline
     assert is_valid(solid)
     points = sampled(edge, 500)
     u = np.linspace(*spline.domain, 500)
@@ -71,12 +72,12 @@ def test_crossing_wires_dont_touch() -> None:
     from OCP.BRepExtrema import BRepExtrema_DistShapeShape
 
     wires = wires_of([line((0, 0), (40, 0)), line((20, -15), (21, 15))])
-    (_, first), (_, second) = (round_wire(w.centreline, D, w.lifts, w.name) for w in wires)
+    first, second = (round_wire(w.centreline, D, w.lifts, w.name).centreline for w in wires)
     assert BRepExtrema_DistShapeShape(first, second).Value() > D - 0.02
 
 
 def test_random_wires_are_valid() -> None:
     rng = np.random.default_rng(7)
     for wire in wires_of([scribble(rng, 60, 7) for _ in range(3)]):
-        solid, _ = round_wire(wire.centreline, 0.5, wire.lifts, wire.name)
+        solid = round_wire(wire.centreline, 0.5, wire.lifts, wire.name).solid
         assert volume_mm3(solid) == pytest.approx(math.pi / 16 * wire.length_mm, rel=0.03)

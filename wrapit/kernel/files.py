@@ -23,7 +23,7 @@ _ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 
 @dataclass(frozen=True, eq=False)
 class FilePart:
-    """A named solid with its sRGB colour `#rrggbb`, and edges that go with it (such as its centreline)."""
+    """A named solid (STEP: or none) with its sRGB colour `#rrggbb`, and edges that go with it."""
 
     name: str
     solid: Any
@@ -44,7 +44,8 @@ def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
         tree = cadquery.Assembly(name=f"{name} (all)" if name in taken else name)
         for part in parts:
             colour = cadquery.Color(*_channels(part.colour))
-            tree.add(cadquery.Shape.cast(part.solid), name=part.name, color=colour)
+            if part.solid is not None:
+                tree.add(cadquery.Shape.cast(part.solid), name=part.name, color=colour)
             for index, edge in enumerate(part.edges, start=1):
                 suffix = "centreline" if len(part.edges) == 1 else f"curve-{index}"
                 tree.add(cadquery.Shape.cast(edge), name=f"{part.name} {suffix}", color=colour)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from wrapit.errors import KernelError
 from wrapit.geometry import BSpline
 from wrapit.kernel.checks import is_valid, volume_mm3
 from wrapit.kernel.guard import guarded
@@ -18,30 +18,36 @@ from wrapit.kernel.skins import capped, skin
 from wrapit.kernel.spines import Spine
 
 VOLUME_TOLERANCE = 1e-3
-TIGHT = 0.98  # a wire bent to less than its own radius can't be a valid solid; the bend itself is reported
+
+
+@dataclass(frozen=True, eq=False)
+class RoundWire:
+    """The centreline as one exact B-spline edge, and the round solid; None with the reason in `flaw`."""
+
+    centreline: Any
+    solid: Any | None
+    flaw: str = ""
 
 
 def round_wire(
     centreline: BSpline, diameter_mm: float, lifts: Sequence[tuple[float, float]], name: str
-) -> tuple[Any, Any]:
-    """The solid round wire and its centreline as one exact B-spline edge.
+) -> RoundWire:
+    """A round wire along a planar spline.
 
     `lifts` are heights (at_mm, z_mm) along the planar length with straight ramps between, whose kinks are
-    rounded upwards; x and y of the centreline are those of the spline, exactly. Raises KernelError
-    naming the wire.
+    rounded upwards; x and y of the centreline are those of the spline, exactly. A wire that bends more
+    tightly than it is thick has no sound solid. Raises KernelError naming the wire.
     """
     with guarded("making the round wire", name):
         spine = Spine(centreline, tuple(lifts), diameter_mm)
         skins = [skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
         solid = capped(skins, spine.breaks)
-        if spine.sharpest_per_mm * diameter_mm / 2 < TIGHT:
-            _check(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm, name)
-        return solid, spine.edge()
+        flaw = _flaw(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm)
+        return RoundWire(spine.edge(), None if flaw else solid, flaw)
 
 
-def _check(solid: Any, expected_mm3: float, name: str) -> None:
+def _flaw(solid: Any, expected_mm3: float) -> str:
     got = volume_mm3(solid)
     if abs(got - expected_mm3) > VOLUME_TOLERANCE * expected_mm3:
-        raise KernelError(f"the round wire has {got:.2f} mm³ instead of {expected_mm3:.2f} mm³", name)
-    if not is_valid(solid):
-        raise KernelError("the round wire is not a valid solid", name, "make its tightest bend wider")
+        return f"it has {got:.2f} mm³ instead of {expected_mm3:.2f} mm³"
+    return "" if is_valid(solid) else "it cuts through itself"

@@ -25,18 +25,19 @@ def make_solids(
 
     jigs, findings = build_jig(wires, config.jig)
     if folder is not None:
-        _write(jigs, wires, config, folder)
+        findings += _write(jigs, wires, config, folder)
     bare = tuple(
         dataclasses.replace(jig, part=dataclasses.replace(jig.part, solid=None)) for jig in jigs.jigs
     )
     return dataclasses.replace(jigs, jigs=bare), findings
 
 
-def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) -> None:
+def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) -> tuple[Finding, ...]:
     from wrapit.kernel.files import write_3mf, write_step, write_stl
 
+    findings: tuple[Finding, ...] = ()
     if "step" in config.outputs:
-        write_step(folder / "wires.step", config.name, [_wire_part(wire) for wire in wires])
+        findings = _write_wires(wires, config.name, folder / "wires.step")
         write_step(folder / "jig.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
     for jig in jigs.jigs:
         stem = jig.name if len(jigs.jigs) > 1 else "jig"
@@ -44,6 +45,7 @@ def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) 
             write_stl(folder / f"{stem}.stl", [jig.part.solid], config.jig.stl_tolerance)
         if "3mf" in config.outputs:
             write_3mf(folder / f"{stem}.3mf", [_jig_part(jig)])
+    return findings
 
 
 def _jig_part(jig: Jig) -> FilePart:
@@ -52,9 +54,21 @@ def _jig_part(jig: Jig) -> FilePart:
     return FilePart(jig.part.name, jig.part.solid, jig.part.colour)
 
 
-def _wire_part(wire: Wire) -> FilePart:
-    from wrapit.kernel.files import FilePart
+def _write_wires(wires: tuple[Wire, ...], name: str, path: Path) -> tuple[Finding, ...]:
+    """Solids and centrelines; a finding for each wire whose solid isn't sound and stays out."""
+    from wrapit.kernel.files import FilePart, write_step
     from wrapit.kernel.sweeps import round_wire
 
-    solid, centreline = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name)
-    return FilePart(wire.name, solid, wire.colour, (centreline,))
+    made = [(w, round_wire(w.centreline, w.diameter_mm, w.lifts, w.name)) for w in wires]
+    write_step(path, name, [FilePart(w.name, m.solid, w.colour, (m.centreline,)) for w, m in made])
+    return tuple(
+        Finding(
+            "warning",
+            "wire-without-solid",
+            w.name,
+            f"its round solid is not sound ({m.flaw}); {path.name} holds its centreline alone",
+            "its bends are too tight for its thickness: make the piece larger, or use thinner wire",
+        )
+        for w, m in made
+        if m.solid is None
+    )
