@@ -84,6 +84,41 @@ def test_two_strokes_cross_in_one_junction(traced, angle, width, turn, shift):
     assert np.linalg.norm(at - CENTRE - np.array(shift)) < 0.1 * width
 
 
+def arc(radius: float, half_angle: float, offset: float) -> Points:
+    """An arc that bulges upwards around the middle of its chord, `offset` below the centre at its top."""
+    a = np.linspace(-half_angle, half_angle, 120)
+    return CENTRE + np.column_stack([radius * np.sin(a), offset + radius * (1 - np.cos(a))])
+
+
+@few
+@given(st.floats(10, 15), st.floats(6, 10), TURNS)
+def test_strokes_that_cross_at_a_very_acute_angle_are_one_junction(traced, angle, width, turn):
+    curves = [turned(ACROSS, turn), turned(turned(ACROSS, math.radians(angle)), turn)]
+    drawing, _ = traced(curves, width)
+    assert degrees(drawing) == [1, 1, 1, 1, 4]
+    assert np.linalg.norm(junction_near(drawing, 4) - CENTRE) < 0.3 * width
+
+
+@few
+@given(st.floats(6, 9), TURNS)
+def test_strokes_whose_ink_hides_a_lens_cross_twice(traced, width, turn):
+    upper = arc(260, 0.5, -0.35 * width)
+    lower = 2 * CENTRE - upper
+    lower = lower * [-1, 1] + [2 * CENTRE, 0]
+    drawing, _ = traced([turned(upper, turn), turned(lower, turn)], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 4, 4]
+
+
+@few
+@given(st.floats(6, 10), TURNS)
+def test_strokes_that_only_touch_stay_apart_and_are_named(traced, width, turn):
+    upper, lower = arc(150, 0.9, 0.42 * width), arc(110, 0.9, 0.42 * width)
+    lower = lower * [1, -1] + [0, 2 * CENTRE]
+    drawing, findings = traced([turned(upper, turn), turned(lower, turn)], width)
+    assert degrees(drawing) == [1, 1]
+    assert {"touching", "left-out"} <= {finding.code for finding in findings}
+
+
 @few
 @given(st.floats(30, 90), WIDTHS, TURNS, SHIFTS)
 def test_tangents_at_a_crossing_are_those_of_the_strokes(traced, angle, width, turn, shift):

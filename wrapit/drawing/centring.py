@@ -97,10 +97,13 @@ def _smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:
     reach = int(np.ceil(3 * sigma))
     if loop:
         ring = path[:-1]
-        padded = np.pad(ring, ((reach, reach), (0, 0)), mode="wrap")
+        around = np.arange(-reach, len(ring) + reach) % len(ring)
+        padded = ring[around]
     else:
         reach = min(reach, len(path) - 1)
-        padded = np.pad(path, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
+        padded = np.concatenate(
+            [2 * path[0] - path[reach:0:-1], path, 2 * path[-1] - path[-2 : -reach - 2 : -1]]
+        )
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     kernel /= kernel.sum()
     smooth = np.column_stack([np.convolve(padded[:, k], kernel, mode="valid") for k in (0, 1)])

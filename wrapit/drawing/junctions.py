@@ -97,9 +97,8 @@ def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
     first = int(np.argmax(run)) if run.any() else -1
     if first >= 0:
         first = int(np.searchsorted(along, along[first] + _MARGIN * width_px))
-        stop = first + 1
-        while stop < len(points) and clean[stop]:
-            stop += 1
+        after = clean[first + 1 :]
+        stop = first + 1 + (len(after) if after.all() else int(np.argmin(after)))
         if stop - first < 4 and first + 4 <= len(points):
             stop = first + 4
     if first < 0 or stop - first < 4:

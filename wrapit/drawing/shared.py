@@ -73,7 +73,7 @@ def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) 
         if any(a.strand == b.strand and a.end == b.end for a, b in pairs):
             continue
         turns = [turn(a, b) for a, b in pairs]
-        if max(turns) > _TURN_BRAID_RAD:
+        if max(turns) > (_TURN_BRAID_RAD if line.length > _SHORT * width_px else _TURN_SEEN_RAD):
             continue
         curves = [through(a, b) for a, b in pairs]
         crossed, together = _misfits(line, _apart(curves, line), width_px)
@@ -81,6 +81,8 @@ def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) 
         if line.length > _SHORT * width_px:
             # Along a long stretch the ink's width says more than the bends.
             cost = cost / 10 + (2 * crossed) ** 2
+        elif line.length > 0.8 * width_px:
+            cost += crossed**2
         if best is None or cost < best[0]:
             best = (cost, turns, curves, pairs, crossed, together)
     if best is None:
