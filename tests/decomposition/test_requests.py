@@ -4,23 +4,29 @@ from __future__ import annotations
 
 import json
 import math
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from tests.bench.graphs import FAMILIES
 from tests.decomposition.drawings import cross, drawing_of, theta
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.config.loading import load_config
 from wrapit.config.root import Config
 from wrapit.decomposition.bridges import with_bridges
 from wrapit.decomposition.energy import weak_trails
+from wrapit.decomposition.exact import solve_exactly
 from wrapit.decomposition.files import decomposition_json
 from wrapit.decomposition.graph import graph_of
-from wrapit.decomposition.model import Solution
+from wrapit.decomposition.model import Solution, Weights
+from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.refinement import doubled_back
 from wrapit.decomposition.stage import alternatives, decompose
 from wrapit.decomposition.symmetry import mirror_images
+from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
 from wrapit.errors import ConfigError, DecompositionError
 
@@ -293,3 +299,25 @@ def test_alternatives_of_a_drawing_in_pieces_combine_theirs() -> None:
     corners = drawing_of(points, [(0, 1), (0, 2), (3, 4), (3, 5)])
     found = alternatives(corners, config(), 9)
     assert [len(solution.trails) for solution in found] == [2, 3, 3, 4]
+
+
+@pytest.mark.parametrize("family", ["voronoi", "cactus"])
+def test_refinement_of_any_graph_is_a_few_walks_over_everything(family: str) -> None:
+    changed = 0
+    for seed in range(16):
+        graph = FAMILIES[family](np.random.default_rng(seed), 14)
+        answer = solve_exactly(Problem(graph, Weights(0.1, 0.0)), 0)
+        assert answer is not None
+        before = trails_of(graph, answer.mate)
+        trails, doubled = doubled_back(graph, before)
+        runs = [t.segment for trail in trails for t in trail.traversals]
+        assert weak_trails(graph, trails) == []
+        assert set(runs) == set(range(graph.segments))
+        assert {e for e in runs if runs.count(e) > 1} == set(doubled)
+        for trail in trails:
+            ends = [(2 * t.segment + t.reversed, 2 * t.segment + 1 - t.reversed) for t in trail.traversals]
+            stops = [(graph.junction_of[a], graph.junction_of[b]) for a, b in ends]
+            assert all(arrived == left for (_, arrived), (left, _) in pairwise(stops))
+            assert trail.closed == (stops[0][0] == stops[-1][1])
+        changed += trails != before
+    assert changed > 3

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import ctypes
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -61,15 +65,16 @@ class Programme:
         ]
         rows, columns, coefficients = zip(*entries, strict=True) if entries else ((), (), ())
         matrix = csr_array((coefficients, (rows, columns)), shape=(len(self.rows), len(self.columns)))
-        outcome = milp(
-            np.array(self.costs) * _SCALE,
-            integrality=np.array(self.whole, dtype=int),
-            bounds=Bounds(0, 1),
-            constraints=LinearConstraint(
-                matrix, [low for _, low, _ in self.rows], [high for _, _, high in self.rows]
-            ),
-            options={"disp": False, "mip_rel_gap": 0.0, "node_limit": node_limit},
-        )
+        with silent_stdout():
+            outcome = milp(
+                np.array(self.costs) * _SCALE,
+                integrality=np.array(self.whole, dtype=int),
+                bounds=Bounds(0, 1),
+                constraints=LinearConstraint(
+                    matrix, [low for _, low, _ in self.rows], [high for _, _, high in self.rows]
+                ),
+                options={"disp": False, "mip_rel_gap": 0.0, "node_limit": node_limit},
+            )
         infeasible = outcome.status == 2
         values = None
         if outcome.x is not None:
@@ -78,6 +83,24 @@ class Programme:
         if bound is None or not np.isfinite(bound):
             bound = -np.inf
         return Optimum(values, float(bound) / _SCALE, int(outcome.get("mip_node_count") or 0), not infeasible)
+
+
+@contextmanager
+def silent_stdout() -> Iterator[None]:
+    """Keeps standard output for results: HiGHS prints some warnings there whatever it is told."""
+    library = ctypes.CDLL("ucrtbase" if os.name == "nt" else None)
+    if sys.stdout is not None:
+        sys.stdout.flush()
+    library.fflush(None)
+    saved, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        library.fflush(None)
+        os.dup2(saved, 1)
+        os.close(saved)
+        os.close(nowhere)
 
 
 def best_matching(costs: LocalCosts, ends: tuple[int, ...]) -> tuple[float, Matching]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from wrapit.decomposition.energy import bends_of, contacts_of, weak_trails
+from wrapit.decomposition.energy import bends_of, contacts_of, junctions_of, weak_trails
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import Trail, Traversal
 from wrapit.decomposition.trails import in_wire_order
@@ -20,27 +20,37 @@ Run = tuple[Traversal, ...]
 def doubled_back(graph: Graph, trails: Sequence[Trail]) -> tuple[tuple[Trail, ...], tuple[int, ...]]:
     """Trails of which none hangs on one junction any more, and the segments that are run along twice.
 
-    The trail with the fewest segments goes first, so that a twig joins the branch that it hangs on.
-    Of all places where it can be taken in, the one with the least doubling is chosen, then the one
-    with the least bends.
+    Every hanging trail is tried at every place where a neighbour could take it in; what leaves the
+    fewest hanging ones is done, and of that what needs the least metal, then the least bends. Where
+    a drawing hangs together like a tree, this goes on until one wire is left.
     """
     merged = list(trails)
     while weak := weak_trails(graph, merged):
-        index = min(weak, key=lambda i: (len(merged[i].traversals), min(merged[i].traversals)))
-        (junction,) = contacts_of(graph, merged)[index]
-        hanging = merged.pop(index)
-        host, run = min(
-            (
-                (i, run)
-                for i, trail in enumerate(merged)
-                for run in _taken_in(graph, trail, hanging, junction)
-            ),
-            key=lambda choice: _cost(graph, choice[1], merged[choice[0]]),
+        merged = min(
+            (option for index in weak for option in _without(graph, merged, index)),
+            key=lambda option: _cost(graph, option),
         )
-        closed = _start(graph, run[0]) == _start(graph, _turned(run)[0])
-        merged[host] = Trail(run, closed)
     counts = Counter(traversal.segment for trail in merged for traversal in trail.traversals)
     return in_wire_order(graph, merged), tuple(sorted(e for e, count in counts.items() if count > 1))
+
+
+def _without(graph: Graph, trails: Sequence[Trail], index: int) -> Iterator[list[Trail]]:
+    """Every way to have a hanging trail taken in by another one."""
+    hanging = trails[index]
+    (junction,) = contacts_of(graph, trails)[index]
+    others = [trail for trail in trails if trail is not hanging]
+    for place, host in enumerate(others):
+        if junction in junctions_of(graph, host):
+            for run in _taken_in(graph, host, hanging, junction):
+                closed = _start(graph, run[0]) == _start(graph, _turned(run)[0])
+                yield [*others[:place], Trail(run, closed), *others[place + 1 :]]
+
+
+def _cost(graph: Graph, trails: Sequence[Trail]) -> tuple[int, float, float]:
+    runs = [traversal.segment for trail in trails for traversal in trail.traversals]
+    length_mm = round(sum(graph.lengths_mm[segment] for segment in runs), 6)
+    bends = round(sum(bend for trail in trails for bend in bends_of(graph, trail)), 9)
+    return len(weak_trails(graph, trails)), length_mm, bends
 
 
 def _taken_in(graph: Graph, host: Trail, hanging: Trail, junction: int) -> Iterator[Run]:
@@ -60,7 +70,7 @@ def _taken_in(graph: Graph, host: Trail, hanging: Trail, junction: int) -> Itera
 
 
 def _round_trip(graph: Graph, hanging: Trail, junction: int) -> Run:
-    """A walk along the trail from the junction and back to it; parts that come back anyway run once."""
+    """A walk along the trail from the junction and back to it, the shorter way wherever it doubles."""
     parts: list[list[Traversal]] = [[]]
     for traversal in hanging.traversals:
         if _start(graph, traversal) == junction and parts[-1]:
@@ -70,12 +80,22 @@ def _round_trip(graph: Graph, hanging: Trail, junction: int) -> Run:
     for part in map(tuple, parts):
         back = _turned(part)
         leaves, returns = _start(graph, part[0]) == junction, _start(graph, back[0]) == junction
-        trip += part if leaves and returns else part + back if leaves else back + part
+        if leaves and returns:
+            trip += part
+        else:
+            trip += part + _direct(graph, back) if leaves else _direct(graph, back) + part
     return trip
 
 
-def _cost(graph: Graph, run: Run, host: Trail) -> tuple[int, float, Run]:
-    return len(run), sum(bends_of(graph, Trail(run, False))) - sum(bends_of(graph, host)), run
+def _direct(graph: Graph, run: Run) -> Run:
+    """The same way without its detours: what it passes again when it comes back to a junction is left out."""
+    way: list[Traversal] = []
+    for traversal in run:
+        stops = [_start(graph, step) for step in way]
+        if (start := _start(graph, traversal)) in stops:
+            del way[stops.index(start) :]
+        way.append(traversal)
+    return tuple(way)
 
 
 def _turned(run: Run) -> Run:
