@@ -16,6 +16,9 @@ _REACH = 1.3
 _SMOOTHING = 0.35
 _CLEAN = 0.09
 _CLEAN_PX = 0.35
+# A pen's pressure may change the width by this share; it is measured within this reach.
+_DRIFT = 0.17
+_DRIFT_REACH = 3.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,8 +79,22 @@ def _line(points: FloatArray, width: FloatArray, width_px: float, spread: float)
     usual = float(np.clip(usual, 0.85 * width_px, 1.15 * width_px))
     # Another stroke only widens: thinner places are the hand's, and as good as others.
     slack = max(_CLEAN * width_px, _CLEAN_PX, 1.5 * spread)
-    clean = (width - usual <= slack) & (width >= 0.6 * usual)
-    return Line(points, width, clean, lengths(points))
+    along = lengths(points)
+    near = _running_median(width, along, width_px)
+    nearby = np.clip(near, (1 - _DRIFT) * usual, (1 + _DRIFT) * usual)
+    clean = (width - nearby <= slack) & (width >= 0.6 * nearby)
+    return Line(points, width, clean, along)
+
+
+def _running_median(width: FloatArray, along: FloatArray, width_px: float) -> FloatArray:
+    """The width around each point, as a pen's pressure changes it; wide enough to overlook a crossing."""
+    from scipy.ndimage import median_filter
+
+    step = max(float(along[-1]) / (len(along) - 1), 1e-6)
+    size = 2 * round(_DRIFT_REACH * width_px / step) + 1
+    if size >= len(width):
+        return np.full(len(width), float(np.median(np.nan_to_num(width, nan=2 * width_px))))
+    return median_filter(np.nan_to_num(width, nan=2 * width_px), size, mode="reflect")
 
 
 def lengths(points: FloatArray) -> FloatArray:
