@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -49,7 +50,7 @@ def test_version_and_help() -> None:
 
     assert wrapit("--version").stdout.strip() == f"wrapit {__version__}"
     text = wrapit("--help").stdout
-    for command in ("build", "check", "schema", "materials"):
+    for command in ("build", "init", "check", "coupon", "schema", "materials"):
         assert command in text
     assert "Exit codes" in text
 
@@ -168,3 +169,46 @@ def test_interrupted_build_leaves_nothing(bee: Path) -> None:
     process.communicate(timeout=60)
     assert process.returncode != 0
     assert sorted(path.name for path in bee.parent.iterdir()) == ["bee.png", "bee.yaml"]
+
+
+def test_init_writes_a_config_that_builds(bee: Path) -> None:
+    config = bee.parent / "pieces" / "proposed.yaml"
+    config.parent.mkdir()
+    assert wrapit("init", bee.with_name("bee.png"), "-o", config).returncode == 0
+    assert "drawing: ../bee.png" in config.read_text()
+    refused(wrapit("init", bee.with_name("bee.png"), "-o", config), 2, "exists already")
+    assert wrapit("build", config, "-o", bee.parent / "out", "--until", "wires").returncode == 0
+    refused(wrapit("init", bee.with_name("none.png")), 3, "none.png")
+
+
+def test_alternatives_are_drawn_best_first(bee: Path) -> None:
+    out = bee.parent / "out"
+    run = wrapit("build", bee, "-o", out, "--until", "wires", "--alternatives", "3", "--json")
+    text = (out / "alternatives.svg").read_text()
+    energies = [float(words.split()[1]) for words in re.findall(r">(energy [\d.]+)<", text)]
+    assert len(energies) == 3
+    assert energies == sorted(energies)
+    assert energies[0] == pytest.approx(json.loads(run.stdout)["decomposition"]["energy"]["total"], abs=1e-3)
+
+
+def test_coupons_are_written_whole(tmp_path: Path) -> None:
+    assert wrapit("coupon", "-o", tmp_path / "test pieces").returncode == 0
+    written = sorted(path.name for path in (tmp_path / "test pieces").iterdir())
+    assert written == ["coupon-clearance.stl", "coupon-kerf.dxf"]
+
+
+def test_check_writes_nothing(bee: Path) -> None:
+    run = wrapit("check", bee, "--json", cwd=bee.parent)
+    assert run.returncode == 0, run.stderr
+    assert json.loads(run.stdout)["jig"]["valid"] is True
+    assert sorted(path.name for path in bee.parent.iterdir()) == ["bee.png", "bee.yaml"]
+
+
+def test_same_input_gives_the_same_bytes(bee: Path) -> None:
+    first, second = bee.parent / "first", bee.parent / "second"
+    for out in (first, second):
+        assert wrapit("build", bee, "-o", out).returncode == 0
+    names = sorted(path.name for path in first.iterdir())
+    assert names == sorted(path.name for path in second.iterdir())
+    assert len(names) > 12
+    assert [name for name in names if (first / name).read_bytes() != (second / name).read_bytes()] == []
