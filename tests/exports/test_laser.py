@@ -336,7 +336,7 @@ def test_bytes_repeat(tmp_path: Path) -> None:
         folder = tmp_path / name
         folder.mkdir()
         config = PlateConfig()
-        write_plate_files(folder, laser_of(eye()[1], config)[0], config)
+        write_plate_files(folder, laser_of(hairpin(), config)[0], config)
     for path in (tmp_path / "a").iterdir():
         assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes(), path.name
 

@@ -13,6 +13,7 @@ from wrapit.geometry.bezier import BezierChain, evaluate, split
 from wrapit.geometry.loops import Arc, Edge, Line
 
 _CHECKS = np.linspace(0, 1, 18)[1:-1]
+_INNER = np.linspace(0, 1, 9)[1:-1]
 _LARGEST_RADIUS_MM = 1e5
 
 
@@ -130,22 +131,40 @@ def _turned_round(edge: Line | Arc) -> Line | Arc:
 
 
 def _error(cubics: FloatArray, pair: Sequence[Line | Arc]) -> float:
-    """How far the cubics stray from the nearer of both arcs, or the arcs' common point from the cubics."""
+    """How far the cubics stray from both arcs, or the arcs from the cubics (by their chords)."""
     points = evaluate(cubics, _CHECKS).reshape(-1, 2)
-    middle = np.linalg.norm(points - np.array(pair[0].end), axis=1).min()
-    step = np.linalg.norm(np.diff(points, axis=0), axis=1).max() if len(points) > 1 else 0.0
-    if middle > step:
-        return float(middle)
-    apart = np.stack([_distance(points, edge) for edge in pair])
-    return float(apart.min(axis=0).max())
+    away = np.stack([_distance(points, edge) for edge in pair]).min(axis=0)
+    ends = np.concatenate([cubics[:1, 0], points, cubics[-1:, 3]])
+    back = np.concatenate([_to_chords(_inside(edge), ends) for edge in pair])
+    return float(max(away.max(), back.max()))
 
 
 def _distance(points: FloatArray, edge: Line | Arc) -> FloatArray:
-    if isinstance(edge, Arc):
-        return np.abs(np.linalg.norm(points - edge.centre, axis=1) - edge.radius_mm)
-    a, b = np.array(edge.start), np.array(edge.end)
-    along = (b - a) / max(float(np.hypot(*(b - a))), 1e-12)
-    return np.abs((points - a) @ np.array([-along[1], along[0]]))
+    if isinstance(edge, Line):
+        return _to_chords(points, np.array([edge.start, edge.end]))
+    apart = points - np.array(edge.centre)
+    along = np.arctan2(apart[:, 1], apart[:, 0]) - edge.start_rad
+    within = np.mod(math.copysign(1.0, edge.sweep_rad) * along, math.tau) <= abs(edge.sweep_rad)
+    beside = np.abs(np.linalg.norm(apart, axis=1) - edge.radius_mm)
+    tips = np.array([edge.start, edge.end])
+    return np.where(within, beside, np.linalg.norm(points[:, None] - tips, axis=2).min(axis=1))
+
+
+def _inside(edge: Line | Arc) -> FloatArray:
+    """Points (m, 2) between the ends."""
+    if isinstance(edge, Line):
+        return np.array(edge.start) + _INNER[:, None] * (np.array(edge.end) - np.array(edge.start))
+    angles = edge.start_rad + _INNER * edge.sweep_rad
+    return np.array(edge.centre) + edge.radius_mm * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _to_chords(points: FloatArray, corners: FloatArray) -> FloatArray:
+    """Distance (m,) of points (m, 2) from a polyline (n, 2)."""
+    a, along = corners[:-1], np.diff(corners, axis=0)
+    apart = points[:, None] - a
+    share = (apart * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), 1e-18)
+    feet = np.clip(share, 0, 1)[:, :, None] * along
+    return np.linalg.norm(apart - feet, axis=2).min(axis=1)
 
 
 def _xy(point: FloatArray) -> tuple[float, float]:
