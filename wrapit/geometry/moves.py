@@ -54,7 +54,7 @@ def circle(centre: Point, radius_mm: float) -> Loop:
 
 def rounded_rectangle(left: float, bottom: float, right: float, top: float, radius_mm: float) -> Loop:
     """A rectangle with round corners (sharp ones if the radius is zero), counter-clockwise."""
-    if radius_mm <= 0:
+    if radius_mm < 1e-6:
         corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
         return Loop(tuple(Line(a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)))
     radius = min(radius_mm, (right - left) / 2, (top - bottom) / 2)
