@@ -37,7 +37,6 @@ def write_dxf(
     """
     from ezdxf import units
     from ezdxf.filemanagement import new
-    from ezdxf.sections.classes import REQ_R2004
 
     if profile == "plain" and curves == "spline":
         curves = "arc"
@@ -55,7 +54,7 @@ def write_dxf(
             drawn = Contour(contour.layer, simplified(contour.edges, curves, tolerance_mm))
             _add(space, drawn, looks[contour.layer], exploded=profile == "plain")
         _check(document, path)
-        for name in sorted(REQ_R2004):  # the library adds them in random order
+        for name in sorted(document.entitydb.dxf_types_in_use()):  # the library adds some in random order
             document.classes.add_class(name)
         try:
             document.saveas(path)
