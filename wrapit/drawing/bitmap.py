@@ -22,7 +22,7 @@ from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.inspection import refuse_loose_strokes, refuse_other_pictures
 from wrapit.drawing.joining import close_gaps, drop_short
-from wrapit.drawing.junctions import Arm, Ending, arms_at, pair, place
+from wrapit.drawing.junctions import Arm, Ending, arms_at, kinked, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
 from wrapit.drawing.picture import Picture, read_picture
@@ -158,8 +158,10 @@ def _pairs(net: Network, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
     index = {(arm.strand, arm.end): k for k, arm in enumerate(arms)}
     known = net.through.get(node, ())
     if len(arms) == 4 and known and all(end in index for ends in known for end in ends):
-        return [(index[a], index[b]) for a, b in known]
-    return pair(arms)
+        pairs = [(index[a], index[b]) for a, b in known]
+    else:
+        pairs = pair(arms)
+    return [(i, j) for i, j in pairs if not kinked(arms[i], arms[j])]
 
 
 def _seam(

@@ -17,6 +17,8 @@ _ARM = 3.0
 _MARGIN = 0.1
 _SNAP_RAD = math.radians(20)
 PAIR_RAD = math.radians(40)
+_KINK_RAD = math.radians(18)
+_CLOSE = 2.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +121,14 @@ def turn(a: Arm, b: Arm) -> float:
     reach = -min(gap / 2, 1.5 * a.width_px)
     extrapolated = angle(-a.at(reach)[1], b.at(reach)[1])
     return min(straight, extrapolated + straight / 4)
+
+
+def kinked(a: Arm, b: Arm) -> bool:
+    """Whether two arms meet at an angle rather than in one smooth curve: where both are known up close."""
+    gap = float(np.linalg.norm(b.points[0] - a.points[0]))
+    if gap > _CLOSE * a.width_px or min(a.length, b.length) < _MARGIN * 10 * a.width_px:
+        return False
+    return angle(-a.at(-gap / 2)[1], b.at(-gap / 2)[1]) > _KINK_RAD
 
 
 def angle(a: FloatArray, b: FloatArray) -> float:
