@@ -24,6 +24,7 @@ from wrapit.geometry.biarcs import as_arcs, as_lines
 from wrapit.geometry.moves import circle, moved, oriented, reversed_loop, rounded_rectangle, turns_left
 from wrapit.geometry.offsets import offset_region
 from wrapit.jig.laser_checks import length_mm
+from wrapit.jig.laser_inlays import moved_outline
 
 sizes = st.floats(1, 50)
 
@@ -142,3 +143,23 @@ def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
         drawn = sorted(SvgPath(path.get("d")).length(error=1e-6) for path in group)
         planned = sorted(length_mm(contour) for contour in sheet.contours if contour.layer == layer)
         assert drawn == pytest.approx(planned, abs=5e-3)
+
+
+def test_where_no_exact_outline_is_found_lines_take_its_place() -> None:
+    loop = rounded_rectangle(0, 0, 10, 4, 1)
+
+    def fails(_: Region, __: float) -> tuple[Region, ...]:
+        raise ValueError("no meeting")
+
+    def wrong(region: Region, distance_mm: float) -> tuple[Region, ...]:
+        return offset_region(region, 2 * distance_mm)
+
+    true = moved_outline(loop, 0.1, offset_region)
+    assert true is not None
+    assert true.exact
+    for offset in (fails, wrong):
+        plain = moved_outline(loop, 0.1, offset)
+        assert plain is not None
+        assert not plain.exact
+        assert area(plain.loop) == pytest.approx(area(true.loop), abs=0.02)
+    assert moved_outline(loop, -2.1, fails) is None

@@ -167,7 +167,10 @@ def moved_outline(loop: Loop, distance_mm: float, offset: Offset) -> Moved | Non
     expected = Polygon(loop.sampled(_FLAT_MM / 10)).buffer(distance_mm, quad_segs=64)
     if expected.is_empty or expected.geom_type != "Polygon" or expected.interiors:
         return None
-    results = [oriented(region) for region in offset(Region(loop), distance_mm)]
+    try:
+        results = [oriented(region) for region in offset(Region(loop), distance_mm)]
+    except (ValueError, IndexError, ArithmeticError):  # no outline could be put together
+        results = []
     if len(results) == 1 and not results[0].holes and _agrees(results[0].outer, expected):
         return Moved(results[0].outer, exact=True)
     return Moved(_lines(expected), exact=False)

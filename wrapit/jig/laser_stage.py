@@ -13,12 +13,13 @@ from wrapit.geometry.moves import circle
 from wrapit.geometry.offsets import offset_region
 from wrapit.jig.blanks import wall_polygons
 from wrapit.jig.course import Course
+from wrapit.jig.faces import plain_finding, wall_face
 from wrapit.jig.holes import hole_rims, start_holes
 from wrapit.jig.laser_checks import check_sheets
 from wrapit.jig.laser_model import LaserJig, LaserPart
 from wrapit.jig.laser_nesting import nest
 from wrapit.jig.laser_stack import copies_needed, stack_parts
-from wrapit.jig.model import Hole, JigSet, Pin
+from wrapit.jig.model import Hole, JigSet, Pin, Wall
 from wrapit.jig.pins import pin_holes
 from wrapit.wires.model import Turn, Wire
 
@@ -98,10 +99,14 @@ def plan_stack(
     polygons, dropped = wall_polygons(course, wide, clear)
     least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * course.reach_mm - _FACE_MM)
     apart = kept_apart([polygon for polygon, _ in polygons], least_mm)
-    walls = tuple(course.outliner.region(polygon) for polygon in apart)
+    faces = tuple(
+        wall_face(course, Wall(turns, polygon, config.wall_sheet))
+        for polygon, (_, turns) in zip(apart, polygons, strict=True)
+    )
     held = {turn for _, turns in polygons for turn in turns} | {pin.turn for pin in pins}
     loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
-    return LaserPlan(walls, holes, pins), (*dropped, *loose)
+    plan = LaserPlan(tuple(face.region for face in faces), holes, pins)
+    return plan, (*dropped, *plain_finding(faces, "laser-cut jig"), *loose)
 
 
 def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
