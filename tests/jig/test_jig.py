@@ -16,6 +16,7 @@ from wrapit.errors import JigError
 from wrapit.geometry import Loop
 from wrapit.geometry.polygons import polygon_of, region_area_mm2
 from wrapit.jig.course import Course
+from wrapit.jig.faces import plain_finding, wall_face
 from wrapit.jig.model import Jig
 from wrapit.jig.plan import plan_jig
 from wrapit.jig.stage import build_jig
@@ -227,3 +228,34 @@ def test_any_scribbles_get_a_valid_jig(seed: int, closed: bool) -> None:
         if jig.min_wall_to_wire_mm is not None:
             assert jig.min_wall_to_wire_mm > 0.2 - 1e-3
         assert all(0 <= support.share <= 1 for support in jig.support)
+
+
+def test_wall_tops_are_set_back() -> None:
+    settings = config(lead_in="0.4 mm", numbers=False)
+    stepped, plain = (
+        only([circle(11)], lead_in="0.4 mm", numbers=False),
+        only([circle(11)], lead_in="0 mm", numbers=False),
+    )
+    (wall,) = stepped.walls
+    rim = polygon_of(wall, 1e-3)
+    ring_mm2 = rim.area - rim.buffer(-0.4).area
+    assert plain.volume_mm3 - stepped.volume_mm3 == pytest.approx(ring_mm2 * settings.lead_in, rel=0.02)
+    assert stepped.size_mm == pytest.approx(plain.size_mm, abs=1e-3)
+
+
+def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPatch) -> None:
+    from wrapit.geometry.outlines import Outliner
+
+    wires = wires_of([circle(11)])
+    plan, _ = plan_jig(wires, JigConfig())
+    course = Course.of(wires, JigConfig())
+    good = wall_face(course, plan.walls[0])
+    assert good.exact
+    nearer = Outliner.of(course.chains, course.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
+    monkeypatch.setattr(Outliner, "region", lambda self, polygon: nearer)
+    bad = wall_face(course, plan.walls[0])
+    assert not bad.exact
+    assert bad.gap_mm > 0.2 - 1e-3
+    assert region_area_mm2(bad.region) == pytest.approx(region_area_mm2(good.region), rel=1e-3)
+    (finding,) = plain_finding((good, bad), "jig")
+    assert finding.code == "plain-wall"

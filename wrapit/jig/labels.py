@@ -12,8 +12,8 @@ from wrapit.jig.course import Course
 from wrapit.jig.digits import number_polygon
 from wrapit.jig.model import Label
 
-HEIGHTS_MM = (4.0, 3.2)
-STROKE_MM = 0.7
+HEIGHTS_MM = (4.0, 3.2, 2.5)
+STROKE_MM = 0.6
 DEPTH_MM = 0.4
 GAP_MM = 0.4
 RING_STEP_MM = 1.0

@@ -10,7 +10,7 @@ import shapely
 
 from wrapit.config import JigConfig
 from wrapit.geometry import Arc, Loop, Region
-from wrapit.geometry.polygons import fitted_edges, polygon_of
+from wrapit.geometry.polygons import fitted_edges, polygon_of, region_of
 from wrapit.jig.model import JigPlan
 
 if TYPE_CHECKING:
@@ -46,12 +46,22 @@ def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float)
 
     crest = ground_mm + height_mm
     if lead_in_mm > 0:
-        crown = polygon_of(region, 1e-3).simplify(1e-3).buffer(-lead_in_mm, quad_segs=4)
+        foot = polygon_of(region, 1e-3)
+        crown = foot.simplify(1e-3).buffer(-lead_in_mm, quad_segs=4)
         crowns = [part for part in shapely.get_parts(crown) if part.area > LEAST_CROWN_MM2]
         if crowns:
-            upon = tuple(Terrace(_fitted(part), crest) for part in crowns)
+            upon = tuple(Terrace(_within(part, foot), crest) for part in crowns)
             return Terrace(region, crest - lead_in_mm, upon)
     return Terrace(region, crest)
+
+
+def _within(crown: shapely.Polygon, foot: shapely.Polygon) -> Region:
+    """The crown with smooth sides, or straight ones where smooth ones would cross or leave the wall."""
+    smooth = _fitted(crown)
+    sampled = polygon_of(smooth, 1e-3)
+    if sampled.is_valid and foot.contains_properly(sampled):
+        return smooth
+    return region_of(crown.simplify(CROWN_TOLERANCE_MM))
 
 
 def _fitted(polygon: shapely.Polygon) -> Region:
