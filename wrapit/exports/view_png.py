@@ -37,10 +37,11 @@ def write_view(path: Path, jig: Jig, wires: Sequence[Wire]) -> None:
     """
     from PIL import Image
 
-    picture = _Picture(jig.plate)
+    height_mm = _height(jig, wires)
+    picture = _Picture(jig.plate, height_mm)
     top = jig.plan.plate.thickness_mm
     picture.raise_region([jig.plate], 0.0, top, PLATE)
-    for z_mm in np.arange(top, _height(jig, wires) + SLICE_MM, SLICE_MM):
+    for z_mm in np.arange(top, height_mm + SLICE_MM, SLICE_MM):
         for height in sorted({wall.height_mm for wall in jig.plan.walls}):
             walls = [w for w, plan in zip(jig.walls, jig.plan.walls, strict=True) if plan.height_mm == height]
             if z_mm <= top + height:
@@ -68,11 +69,11 @@ def _height(jig: Jig, wires: Sequence[Wire]) -> float:
 class _Picture:
     """Pixels (h, w, 3), painted from the bottom up."""
 
-    def __init__(self, plate: Region) -> None:
+    def __init__(self, plate: Region, height_mm: float) -> None:
         corners = self._turned(plate.outer.sampled(0.1))
         low, high = corners.min(axis=0) - MARGIN_MM, corners.max(axis=0) + MARGIN_MM
         self._scale = PX_PER_MM * SUPERSAMPLING
-        self._origin = np.array([low[0], high[1] + 12.0 * math.cos(TILT_RAD)])
+        self._origin = np.array([low[0], high[1] + height_mm * math.cos(TILT_RAD)])
         extent = np.array([high[0] - low[0], self._origin[1] - low[1]])
         width, height = (math.ceil(side * PX_PER_MM) * SUPERSAMPLING for side in extent)
         self.pixels: FloatArray = np.tile(PAPER, (height, width, 1))
