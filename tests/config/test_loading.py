@@ -126,3 +126,7 @@ def test_schema_documents_every_key() -> None:
     ]
     assert bare == []
     assert document["additionalProperties"] is False
+
+
+def test_the_schema_beside_our_configs_is_true() -> None:
+    assert json.loads((CONFIGS / "schema.json").read_text(encoding="utf-8")) == schema()
