@@ -12,12 +12,12 @@ from shapely import Point, Polygon
 
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import JigError
-from wrapit.exports.coupon_files import write_coupons
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Loop
 from wrapit.jig.laser_coupon import clearance_coupon, kerf_coupon
 from wrapit.jig.laser_inlays import polygon_of
 from wrapit.jig.laser_model import Contour
+from wrapit.pipeline.coupons import write_printed
 
 D = 1.02
 
@@ -86,15 +86,14 @@ def test_channels_have_the_clearances_they_are_labelled_with(clearance: str) -> 
     assert all(not a.intersects(b) for i, a in enumerate(shapes) for b in shapes[i + 1 :])
 
 
-def test_both_files_are_written(tmp_path: Path) -> None:
-    printed, cut = write_coupons(tmp_path, D, JigConfig(), PlateConfig())
-    assert cut.stat().st_size > 10_000
-    data = printed.read_bytes()
+def test_the_printed_coupon_is_one_sound_solid(tmp_path: Path) -> None:
+    coupon = clearance_coupon(D, JigConfig())
+    write_printed(coupon, tmp_path / "coupon.stl", 0.01)
+    data = (tmp_path / "coupon.stl").read_bytes()
     count = int.from_bytes(data[80:84], "little")
     fields = np.dtype([("normal", "<3f4"), ("points", "<9f4"), ("attribute", "<u2")])
     triangles = np.frombuffer(data, fields, count, 84)["points"].reshape(-1, 3, 3).astype(float)
     volume = np.einsum("ij,ij->i", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])).sum() / 6
-    coupon = clearance_coupon(D, JigConfig())
     expected = polygon_of(coupon.base).area * coupon.base_mm
     expected += sum(polygon_of(region).area * (top - coupon.base_mm) for region, top in coupon.terraces)
     assert volume == pytest.approx(expected, rel=1e-3)
