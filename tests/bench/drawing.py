@@ -122,7 +122,7 @@ def own_pictures() -> list[tuple[str, Path, dict[str, Any], dict[str, Any]]]:
     from PIL import Image
 
     from wrapit.drawing.planar import planar
-    from wrapit.drawing.svg import read_strokes
+    from wrapit.drawing.svg_strokes import read_strokes
 
     found = []
     for picture in sorted((Path(__file__).parents[2] / "configs").glob("*.png")):

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import io
-import math
-import re
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -16,26 +11,15 @@ from wrapit.drawing.assembly import assemble, placement
 from wrapit.drawing.components import connect
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change
-from wrapit.drawing.planar import Curve, planar
+from wrapit.drawing.planar import planar
+from wrapit.drawing.svg_strokes import read_strokes
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import FloatArray
 
-_MM_PER_PX = 25.4 / 96
 # Ends within this many stroke widths of another stroke's centre touch its ink and belong to it.
 _REACH = 0.95
 # Without any stroke width: this share of the drawing's size.
 _REACH_SHARE = 2e-3
-_LARGEST_BYTES = 50_000_000
-
-
-@dataclass(frozen=True, eq=False)
-class Strokes:
-    """The curves of an SVG file in its own pixels (96 per inch, y down), and their usual width."""
-
-    curves: list[Curve]
-    width_px: float | None
-    filled: int
-    mm_per_px: float
 
 
 def trace_svg(
@@ -83,226 +67,6 @@ def trace_svg(
             )
         )
     return drawing, tuple(findings)
-
-
-def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
-    """The stroked curves of an SVG file.
-
-    Raises DrawingError where it can't be read, isn't safe, or has none.
-    """
-    text = _safe_text(path)
-    root = _parsed(text, path)
-    curves: list[Curve] = []
-    widths: list[float] = []
-    filled = 0
-    for shape in _shapes(root):
-        stroked = _paints(shape.stroke)
-        if not stroked:
-            if not _paints(shape.fill) or _is_ground(shape, root):
-                continue
-            filled += 1
-            if tracing.filled == "refuse":
-                continue
-        found = _curves(shape, path)
-        curves += found
-        if stroked and shape.stroke_width:
-            scale = math.sqrt(
-                abs(shape.transform.a * shape.transform.d - shape.transform.b * shape.transform.c)
-            )
-            width = float(shape.implicit_stroke_width or shape.stroke_width * scale)
-            widths += [width] * len(found)
-    if not curves:
-        if filled:
-            raise DrawingError(
-                f"the drawing has {filled} filled shapes and no stroked lines",
-                str(path),
-                "draw centre lines with a stroke, or set tracing.filled to outline",
-            )
-        raise DrawingError("the drawing has no stroked lines", str(path), "give the lines a stroke")
-    usual = float(np.median(widths)) if widths else None
-    return Strokes(
-        curves, usual if usual and math.isfinite(usual) and usual > 0 else None, filled, _mm_per_px(root)
-    )
-
-
-def _mm_per_px(root: Any) -> float:
-    """Exact scale; svgelements takes a metric unit for 0.0393701 inches per mm."""
-    metric = re.fullmatch(r"[-+.\deE]+\s*(?:mm|cm)", str(root.values.get("width", "")).strip())
-    return _MM_PER_PX / (25.4 * 0.0393701) if metric else _MM_PER_PX
-
-
-def _safe_text(path: Path) -> str:
-    """The file's text; entities and references to other files are refused before anything is parsed."""
-    try:
-        if path.stat().st_size > _LARGEST_BYTES:
-            raise DrawingError("the SVG file is larger than 50 MB", str(path), "simplify it")
-        text = path.read_bytes().decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DrawingError(
-            f"the SVG file can't be read ({error})", str(path), "save it as plain SVG"
-        ) from None
-    plain = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
-    if re.search(r"<!ENTITY|<!DOCTYPE[^>]*\[", plain, re.IGNORECASE):
-        raise DrawingError(
-            "the SVG file defines entities, which are not read for safety", str(path), "save it as plain SVG"
-        )
-    outside = re.search(
-        r"<\s*(?:\w+:)?(?:image|use|feImage|linearGradient|pattern)\b[^>]*?\bhref\s*=\s*[\"']\s*(?!#|data:)([^\"']*)",
-        plain,
-        re.IGNORECASE,
-    ) or re.search(r"@import\b[^;]*|url\(\s*[\"']?\s*(?!#|data:)([^)\"'\s#]+)|<\?xml-stylesheet", plain)
-    if outside:
-        raise DrawingError(
-            f"the SVG file refers to another file ({outside.group(0)[-60:].strip()}), which is never loaded",
-            str(path),
-            "embed or remove it",
-        )
-    return plain
-
-
-def _parsed(text: str, path: Path) -> Any:
-    from xml.etree.ElementTree import ParseError
-
-    from svgelements import SVG
-
-    bad = re.search(r"(?<![\w#-])(?:[-+]?nan|[-+]?inf(?:inity)?)(?![\w-])", _numbers(text), re.IGNORECASE)
-    if bad:
-        raise DrawingError(f"{bad.group(0)!r} is no coordinate", str(path), "correct the path data")
-    try:
-        return SVG.parse(io.StringIO(text), reify=True, ppi=96.0, on_error="raise")
-    except ParseError as error:
-        line, column = error.position
-        raise DrawingError(
-            f"the SVG file is not valid XML ({error.msg.split(':')[0]})",
-            f"{path}:{line}:{column + 1}",
-            "it may be cut off; save it again",
-        ) from None
-    except (
-        ValueError,
-        TypeError,
-        AttributeError,
-        IndexError,
-        KeyError,
-        ZeroDivisionError,
-        RecursionError,
-    ) as error:
-        raise DrawingError(
-            f"the SVG file can't be understood ({type(error).__name__}: {error})",
-            str(path),
-            "save it as plain SVG",
-        ) from None
-
-
-def _numbers(text: str) -> str:
-    """Everything that should hold numbers: path data, points and geometry attributes."""
-    return " ".join(
-        value
-        for _, value in re.findall(
-            r"\s(d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height)\s*=\s*[\"']([^\"']*)", text
-        )
-    )
-
-
-def _shapes(root: Any) -> list[Any]:
-    from svgelements import Shape
-
-    shapes = []
-    for element in root.elements():
-        if not isinstance(element, Shape):
-            continue
-        values = element.values
-        style = str(values.get("style", ""))
-        hidden = values.get("visibility") in ("hidden", "collapse") or "visibility:hidden" in style.replace(
-            " ", ""
-        )
-        gone = values.get("display") == "none" or "display:none" in style.replace(" ", "")
-        clear = _is_zero(values.get("opacity")) or (_is_zero(values.get("stroke-opacity")))
-        if not (hidden or gone or clear):
-            shapes.append(element)
-    return shapes
-
-
-def _is_zero(value: object) -> bool:
-    try:
-        return value is not None and float(str(value)) == 0
-    except ValueError:
-        return False
-
-
-def _paints(colour: Any) -> bool:
-    return colour is not None and colour.value is not None and colour.alpha != 0
-
-
-def _is_ground(shape: Any, root: Any) -> bool:
-    """Whether a filled shape is the paper: nearly white, or as large as the picture."""
-    fill = shape.fill
-    if min(fill.red, fill.green, fill.blue) > 230:
-        return True
-    box = shape.bbox()
-    if box is None or root.width is None or root.height is None:
-        return False
-    return bool((box[2] - box[0]) * (box[3] - box[1]) > 0.9 * float(root.width) * float(root.height))
-
-
-def _curves(shape: Any, path: Path) -> list[Curve]:
-    from svgelements import Arc, Close, CubicBezier, Line, Move, QuadraticBezier
-    from svgelements import Path as SvgPath
-
-    curves: list[Curve] = []
-    cubics: list[FloatArray] = []
-
-    def finish(closed: bool) -> None:
-        if cubics:
-            curves.append(
-                Curve(_chained(cubics), closed or bool(np.allclose(cubics[0][0], cubics[-1][3], atol=1e-9)))
-            )
-            cubics.clear()
-
-    for part in SvgPath(shape):
-        if isinstance(part, Move):
-            finish(False)
-        elif isinstance(part, Close):
-            if part.start is not None and part.end is not None:
-                _add(cubics, [_line(part.start, part.end)], path)
-            finish(True)
-        elif isinstance(part, Line):
-            _add(cubics, [_line(part.start, part.end)], path)
-        elif isinstance(part, QuadraticBezier):
-            a, b, c = (np.array([p.x, p.y]) for p in (part.start, part.control, part.end))
-            _add(cubics, [np.stack([a, a + 2 / 3 * (b - a), c + 2 / 3 * (b - c), c])], path)
-        elif isinstance(part, CubicBezier):
-            _add(cubics, [_control(part)], path)
-        elif isinstance(part, Arc):
-            _add(cubics, [_control(cubic) for cubic in part.as_cubic_curves()], path)
-    finish(False)
-    return curves
-
-
-def _add(cubics: list[FloatArray], new: list[FloatArray], path: Path) -> None:
-    for cubic in new:
-        if not np.isfinite(cubic).all() or np.abs(cubic).max() > 1e12:
-            raise DrawingError("a coordinate is not a finite number", str(path), "correct the path data")
-        if np.abs(np.diff(cubic, axis=0)).max() > 1e-9:
-            cubics.append(cubic)
-
-
-def _line(start: Any, end: Any) -> FloatArray:
-    a, b = np.array([start.x, start.y]), np.array([end.x, end.y])
-    if not (np.isfinite(a).all() and np.isfinite(b).all()):
-        return np.full((4, 2), np.nan)
-    return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
-
-
-def _control(part: Any) -> FloatArray:
-    return np.array(
-        [[p.x, p.y] for p in (part.start, part.control1, part.control2, part.end)], dtype=np.float64
-    )
-
-
-def _chained(cubics: list[FloatArray]) -> FloatArray:
-    chain = np.array(cubics)
-    chain[1:, 0] = chain[:-1, 3]
-    return chain
 
 
 def _pair(point: FloatArray) -> tuple[float, float]:
