@@ -35,7 +35,7 @@ from wrapit.decomposition.trails import trails_of
 T = TypeVar("T")
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
-BUDGET = 200_000
+BUDGET = 2_000_000
 SIZES = (12, 24, 54, 214, 1000, 5000)
 _WHOLE_RUN = 138_149
 _REFERENCE_SEGMENTS = 220  # larger graphs run part of the schedule, and the rest is extrapolated

@@ -21,7 +21,7 @@ from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
-BUDGET = 200_000
+BUDGET = 2_000_000
 
 
 def whole_pieces(graph: Graph) -> list[Graph]:

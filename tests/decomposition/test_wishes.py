@@ -23,7 +23,7 @@ from wrapit.decomposition.rules import Rules
 from wrapit.decomposition.symmetry import mirrored_junctions
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
-BUDGET = 200_000
+BUDGET = 2_000_000
 
 
 def connected(seed: int, segments: int, junctions: int) -> Graph:

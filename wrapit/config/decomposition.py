@@ -54,7 +54,7 @@ class AnnealingConfig(Block):
 class ExactConfig(Block):
     """Read by the solver `exact`."""
 
-    budget: int = Field(default=200_000, ge=0)
+    budget: int = Field(default=2_000_000, ge=0)
     """Work that integer programming may take for each piece of the drawing, counted as unknowns ×
     nodes of its search, not in seconds, so that every machine finds the same. Most drawings need none."""
 

@@ -27,7 +27,7 @@ def solve_by_cuts(
 ) -> Answer | None:
     """The best matching that differs from `others`, starting from what is known; None if there is none.
 
-    `budget` limits the work, counted as columns × nodes of branch and bound over all rounds, so that
+    `budget` limits the work, counted in columns × nodes of branch and bound over all rounds, so that
     the answer depends on nothing but the problem. Beyond it, the best matching so far is returned
     with the bound that was proved.
     """
@@ -40,8 +40,9 @@ def solve_by_cuts(
         rounds += 1
         programme, base = model.programme()
         columns = max(1, len(programme.columns))
-        optimum = programme.solve(max(1, (budget - spent) // columns))
-        spent += columns * max(1, optimum.nodes)
+        first = columns // 50  # the first node takes longer the larger it is: measured, in nodes
+        optimum = programme.solve(max(1, (budget - spent) // columns - first))
+        spent += columns * (max(1, optimum.nodes) + first)
         if not optimum.feasible:
             return None
         bound = max(bound, base + optimum.bound)

@@ -162,4 +162,6 @@ def _can_be_met(
 
 
 def _said(constraint: ConstraintConfig) -> str:
-    return ", ".join(f"{key}: {value}" for key, value in constraint.model_dump(exclude_none=True).items())
+    return ", ".join(
+        f"{key}: {value}" for key, value in constraint.model_dump(mode="json", exclude_none=True).items()
+    )
