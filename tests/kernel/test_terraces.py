@@ -51,7 +51,7 @@ def test_clockwise_outlines_are_turned_round() -> None:
 def test_faces_of_splines_have_the_right_area() -> None:
     chain = as_chain(Arc((3.0, 1.0), 7.0, 0.2, 2 * math.pi))
     assert isinstance(chain, BezierChain)
-    assert abs(_area(region_face(Region(Loop((chain,)))))) == pytest.approx(49 * math.pi, rel=1e-5)
+    assert abs(_area(region_face(Region(Loop((chain,)))))) == pytest.approx(49 * math.pi, rel=1e-9)
 
 
 def test_what_lies_outside_is_an_error_with_the_place() -> None:

@@ -18,8 +18,8 @@ from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import guarded
 
 NESTING_TOLERANCE_MM = 0.01
-# The kernel integrates along splines to about 2e-4; a face that is missing or flipped shows more.
-VOLUME_TOLERANCE = 1e-3
+# A face that is missing or flipped, or terraces that overlap, show here.
+VOLUME_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
