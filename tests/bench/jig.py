@@ -142,9 +142,8 @@ def main() -> None:
             build_jig(wires_of(chains), config)
         except WrapItError as failure:
             failures.append(f"{seed}: {failure}")
-    print(
-        f"{SCRIBBLES} random pieces: {len(failures)} failed, {(time.perf_counter() - start) / SCRIBBLES:.2f} s each"
-    )
+    each = (time.perf_counter() - start) / SCRIBBLES
+    print(f"{SCRIBBLES} random pieces: {len(failures)} failed, {each:.2f} s each")
     print("\n".join(failures))
 
 
