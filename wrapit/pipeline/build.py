@@ -156,16 +156,18 @@ def _run(work: _Work, folder: Path | None) -> None:
 
 def _trace(work: _Work, folder: Path | None) -> None:
     with work.stage("drawing"):
+        from wrapit.decomposition.bridges import with_bridges
         from wrapit.drawing.files import drawing_json
         from wrapit.drawing.stage import trace
         from wrapit.exports.drawing_svg import drawing_svg
 
         work.drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
         work.findings += findings
-        work.report["drawing"] = reports.drawing_numbers(work.drawing)
+        shown = with_bridges(work.drawing) if work.config.decomposition.bridges else work.drawing
+        work.report["drawing"] = reports.drawing_numbers(work.drawing, shown)
         if folder is not None:
-            write_text(folder / "drawing.json", drawing_json(work.drawing))
-            write_text(folder / "drawing.svg", drawing_svg(work.drawing))
+            write_text(folder / "drawing.json", drawing_json(shown))
+            write_text(folder / "drawing.svg", drawing_svg(shown))
 
 
 def _decompose(work: _Work, folder: Path | None) -> None:
@@ -177,8 +179,6 @@ def _decompose(work: _Work, folder: Path | None) -> None:
 
         work.solution, findings = decompose(work.drawing, work.config.decomposition)
         work.findings += findings
-        offered = len(work.solution.decomposition.drawing.segments) - len(work.drawing.segments)
-        work.report["drawing"]["bridges_offered"] = offered
         fewest = fewest_possible_wires(graph_of(work.drawing))
         work.report["decomposition"] = reports.decomposition_numbers(work.solution, fewest)
         if folder is not None:

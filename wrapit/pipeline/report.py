@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
 from wrapit import __version__
 from wrapit.config import Config, lock_text
+from wrapit.decomposition.files import decomposition_summary
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
@@ -32,35 +34,24 @@ def head(config: Config, drawing_sha256: str) -> dict[str, Any]:
     }
 
 
-def drawing_numbers(drawing: Drawing) -> dict[str, Any]:
-    """The `drawing` block."""
+def drawing_numbers(drawing: Drawing, with_bridges: Drawing) -> dict[str, Any]:
+    """The `drawing` block; the second drawing has the bridges that are offered."""
     low, high = drawing.bounds_mm
     strokes = [segment for segment in drawing.segments if segment.kind == "stroke"]
+    degrees = Counter(end for segment in strokes for end in (segment.start, segment.end))
     return {
         "junctions": len(drawing.junctions),
-        "odd_junctions": drawing.odd_junctions,
+        "odd_junctions": sum(degree % 2 for degree in degrees.values()),
         "segments": len(strokes),
-        "length_mm": _mm(drawing.length_mm),
+        "length_mm": _mm(sum(segment.curve.length for segment in strokes)),
         "size_mm": [_mm(value) for value in high - low],
-        "bridges_offered": 0,
+        "bridges_offered": len(with_bridges.segments) - len(strokes),
     }
 
 
 def decomposition_numbers(solution: Solution, fewest_possible_wires: int) -> dict[str, Any]:
     """The `decomposition` block."""
-    energy = dataclasses.asdict(solution.energy)
-    return {
-        "solver": solution.solver,
-        "seed": solution.seed,
-        "energy": {key: round(value, 9) for key, value in energy.items()},
-        "weights": dataclasses.asdict(solution.weights),
-        "lower_bound": None if solution.lower_bound is None else round(solution.lower_bound, 9),
-        "optimal": solution.optimal,
-        "bridges_used": list(solution.bridges_used),
-        "doubled": list(solution.doubled),
-        "iterations": solution.iterations,
-        "fewest_possible_wires": fewest_possible_wires,
-    }
+    return {**decomposition_summary(solution), "fewest_possible_wires": fewest_possible_wires}
 
 
 def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
