@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from wrapit.errors import KernelError
 from wrapit.geometry import BSpline
 from wrapit.kernel.checks import is_valid, volume_mm3
 from wrapit.kernel.guard import guarded
@@ -40,10 +41,15 @@ def round_wire(
     """
     with guarded("making the round wire", name):
         spine = Spine(centreline, tuple(lifts), diameter_mm)
-        skins = [skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
-        solid = capped(skins, spine.breaks)
-        flaw = _flaw(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm)
-        return RoundWire(spine.edge(), None if flaw else solid, flaw)
+        edge = spine.edge()
+    try:
+        with guarded("making the round wire's solid", name):
+            skins = [skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
+            solid = capped(skins, spine.breaks)
+            flaw = _flaw(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm)
+    except KernelError as error:
+        return RoundWire(edge, None, error.problem)
+    return RoundWire(edge, None if flaw else solid, flaw)
 
 
 def _flaw(solid: Any, expected_mm3: float) -> str:

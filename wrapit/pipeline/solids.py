@@ -67,7 +67,7 @@ def _write_wires(wires: tuple[Wire, ...], name: str, path: Path) -> tuple[Findin
             "wire-without-solid",
             w.name,
             f"its round solid is not sound ({m.flaw}); {path.name} holds its centreline alone",
-            "its bends are too tight for its thickness: make the piece larger, or use thinner wire",
+            "folds, and bends tighter than the wire is thick, have no sound solid: make the piece larger",
         )
         for w, m in made
         if m.solid is None
