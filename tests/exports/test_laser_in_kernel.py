@@ -1,0 +1,96 @@
+"""The DXF read back, put together in the kernel, holds the wires where the plan says."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf.math import bulge_to_arc
+
+from tests.exports.test_laser import JIG, PIECES, laser_of
+from wrapit.config import PlateConfig
+from wrapit.exports.plate_files import sheet_name, write_plate_files
+from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
+from wrapit.geometry.bspline import BSpline
+from wrapit.geometry.moves import moved
+from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.polygons import loop_area_mm2
+
+
+def outer_cuts(path: Path) -> list[Loop]:
+    """Exact outer contours of a DXF, from the entities alone."""
+    loops = []
+    for entity in ezdxf.readfile(path).modelspace().query("*[layer=='CUT_OUTER']"):
+        if entity.dxftype() == "SPLINE":
+            poles = np.array([tuple(point)[:2] for point in entity.control_points])
+            loops.append(Loop((chain_of(BSpline(3, poles, np.array(entity.knots))),)))
+        elif entity.dxftype() == "LWPOLYLINE":
+            corners = entity.get_points("xyb")
+            pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
+            loops.append(Loop(tuple(side(a[:2], b[:2], a[2]) for a, b in pairs)))
+    return loops
+
+
+def side(start: tuple[float, float], end: tuple[float, float], bulge: float) -> Line | Arc:
+    """A side of a polyline: straight, or an arc of four times the bulge's arc tangent."""
+    if not bulge:
+        return Line(start, end)
+    centre, _, _, radius = bulge_to_arc(start, end, bulge)
+    start_rad = math.atan2(start[1] - centre.y, start[0] - centre.x)
+    return Arc((centre.x, centre.y), radius, start_rad, 4 * math.atan(bulge))
+
+
+def gap_mm(loop: Loop, wire: BezierChain) -> float:
+    """Distance between an outline and a wire's centreline, by the kernel."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.BRepExtrema import BRepExtrema_DistShapeShape
+
+    from wrapit.geometry import from_chain
+    from wrapit.kernel.edges import region_face, spline_curve
+
+    face = region_face(Region(loop))
+    line = BRepBuilderAPI_MakeEdge(spline_curve(from_chain(wire))).Edge()
+    return float(BRepExtrema_DistShapeShape(face, line).Value())
+
+
+@pytest.mark.parametrize("kerf_mm", [0.1, 0.4])
+@pytest.mark.parametrize("name", ["eye", "hairpin"])
+def test_walls_assembled_in_the_kernel_stand_at_radius_and_clearance(
+    tmp_path: Path, name: str, kerf_mm: float
+) -> None:
+    wires, config = PIECES[name](), PlateConfig.model_construct(**{**PlateConfig().__dict__, "kerf": kerf_mm})
+    laser, _ = laser_of(wires, config)
+    write_plate_files(tmp_path, laser, config)
+    chains = [chain_of(wire.centreline) for wire in wires]
+    gaps = []
+    for sheet in laser.sheets:
+        cuts = outer_cuts(tmp_path / f"{sheet_name(sheet) if len(laser.sheets) > 1 else 'plate'}.dxf")
+        for placed in sheet.placed:
+            if placed.part.role != "wall":
+                continue
+            planned = next(contour for contour in placed.contours if contour.layer == "CUT_OUTER")
+            read = min(cuts, key=lambda loop: apart(loop, Loop(planned.edges)))
+            home = in_place(read, placed.quarters, placed.shift)
+            assert abs(loop_area_mm2(home)) == pytest.approx(
+                abs(loop_area_mm2(Loop(planned.edges))), rel=1e-6
+            )
+            gaps += [gap_mm(home, chain) for chain in chains]
+    reach = wires[0].diameter_mm / 2 + JIG.clearance
+    assert min(gaps) == pytest.approx(reach - kerf_mm / 2, abs=0.01)
+
+
+def apart(one: Loop, other: Loop) -> float:
+    return float(np.linalg.norm(centre(one) - centre(other)))
+
+
+def centre(loop: Loop) -> FloatArray:
+    return loop.sampled(0.01).mean(axis=0)
+
+
+def in_place(loop: Loop, quarters: int, shift: tuple[float, float]) -> Loop:
+    """The loop moved back from the sheet to where the part lies in the jig."""
+    back = [moved(edge, 0, (-shift[0], -shift[1])) for edge in loop.edges]
+    return Loop(tuple(moved(edge, -quarters, (0.0, 0.0)) for edge in back))
