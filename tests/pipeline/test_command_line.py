@@ -212,3 +212,14 @@ def test_same_input_gives_the_same_bytes(bee: Path) -> None:
     assert names == sorted(path.name for path in second.iterdir())
     assert len(names) > 12
     assert [name for name in names if (first / name).read_bytes() != (second / name).read_bytes()] == []
+
+
+def test_a_pair_gets_a_mirrored_jig(bee: Path) -> None:
+    out = bee.parent / "out"
+    run = wrapit("build", bee, "-o", out, "--set", "pair=true", "--set", "outputs=[step, stl]", "--json")
+    jig = json.loads(run.stdout)["jig"]
+    names = {path.name for path in out.iterdir()}
+    assert {"jig-mirrored.step", "jig-mirrored.stl", "wires-mirrored.step", "preview-mirrored.png"} <= names
+    assert jig["mirrored"]["valid"] is True
+    assert jig["mirrored"]["turn_support"] == pytest.approx(jig["turn_support"], abs=0.03)
+    assert jig["mirrored"]["volume_mm3"] == pytest.approx(jig["volume_mm3"], rel=0.01)

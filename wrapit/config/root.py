@@ -62,6 +62,9 @@ class Config(Block):
     jig: JigConfig = JigConfig()
     plate: PlateConfig = PlateConfig()
     guide: GuideConfig = GuideConfig()
+    pair: bool = False
+    """Also write the jig and the wires of the mirror image, for a pair of earrings."""
+
     outputs: tuple[Output, ...] = ("step", "stl", "3mf", "dxf", "guide")
     """Which files to write beside the drawing, the wires and the report."""
 

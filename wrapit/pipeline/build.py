@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import json
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -31,6 +32,14 @@ from wrapit.wires.model import Wire
 Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
 STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
 Progress = Callable[[str], None]
+MIRRORED: Final = "-mirrored"
+ONE_PLATE: Final = Finding(
+    "note",
+    "plate-of-one",
+    "laser-cut jig",
+    "the DXF is for one of the pair",
+    "mirror it in the laser's program for the other one",
+)
 
 
 @dataclass(frozen=True)
@@ -209,6 +218,22 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
         )
         work.findings += findings
         work.report["jig"] = reports.jig_numbers(work.jigs, work.wires)
+        if work.config.pair:
+            _build_mirrored_jig(work, worker, limit_s, files)
+
+
+def _build_mirrored_jig(work: _Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
+    from wrapit.wires.mirror import mirrored
+
+    wires = mirrored(work.wires)
+    where = f"{work.config.name}: mirrored jig"
+    jigs, findings = worker.run(where, limit_s, make_solids, wires, work.config, folder, MIRRORED)
+    work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
+    work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, wires)
+    if folder is not None:
+        write_previews(folder, wires, jigs, MIRRORED)
+        if "dxf" in work.config.outputs:
+            work.findings.append(ONE_PLATE)
 
 
 def _export(work: _Work, folder: Path) -> None:

@@ -19,18 +19,18 @@ def write_text(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8", newline="\n")
 
 
-def write_previews(folder: Path, wires: Sequence[Wire], jigs: JigSet) -> None:
-    """`preview.png`: the jig with the wires laid in; of several jigs each has a picture of its own."""
+def write_previews(folder: Path, wires: Sequence[Wire], jigs: JigSet, suffix: str = "") -> None:
+    """`preview{suffix}.png`: the jig with the wires laid in; several jigs have a picture each."""
     from wrapit.exports.preview_png import write_preview
 
     if len(jigs.jigs) == 1:
         (jig,) = jigs.jigs
-        write_preview(folder / "preview.png", wires, jig.walls, jig.plate)
+        write_preview(folder / f"preview{suffix}.png", wires, jig.walls, jig.plate)
         return
-    write_preview(folder / "preview.png", wires)
+    write_preview(folder / f"preview{suffix}.png", wires)
     for jig in jigs.jigs:
         laid = [wire for wire in wires if wire.name in jig.wires]
-        write_preview(folder / f"preview-{jig.name}.png", laid, jig.walls, jig.plate)
+        write_preview(folder / f"preview-{jig.name}{suffix}.png", laid, jig.walls, jig.plate)
 
 
 def write_plate(

@@ -17,6 +17,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
+from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.folder import Artifact
 from wrapit.wires.model import Wire
 
@@ -76,7 +77,8 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
     """The `jig` block, over all jigs of the piece."""
     support = [each for jig in jigs.jigs for each in jig.support]
     by_wire = {
-        wire.name: _support([each for each in support if each.turn.wire == wire.name]) for wire in wires
+        wire.name: round(total_support(each for each in support if each.turn.wire == wire.name), 4)
+        for wire in wires
     }
     weakest = min(by_wire, key=lambda name: (by_wire[name], name))
     distances = [jig.min_wall_to_wire_mm for jig in jigs.jigs if jig.min_wall_to_wire_mm is not None]
@@ -89,9 +91,10 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "volume_mm3": round(sum(jig.volume_mm3 for jig in jigs.jigs), 3),
         "walls": sum(len(jig.walls) for jig in jigs.jigs),
         "holes": sum(len(jig.plan.holes) for jig in jigs.jigs),
-        "turn_support": _support(support),
+        "turn_support": round(total_support(support), 4),
         "turn_support_by_wire": by_wire,
         "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
+        "stretch_support": round(stretch_support(support), 4),
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }
@@ -112,13 +115,6 @@ def plate_numbers(laser: LaserJig) -> dict[str, Any]:
         "min_web_mm": _optional_mm(checks.min_web_mm),
         "wall_height_mm": _mm(laser.wall_height_mm),
     }
-
-
-def _support(support: Sequence[Any]) -> float:
-    """Supported share of the turns' arc length; a wire without turns needs none."""
-    length = sum(each.turn.end_mm - each.turn.start_mm for each in support)
-    held = sum(each.share * (each.turn.end_mm - each.turn.start_mm) for each in support)
-    return round(held / length, 4) if length else 1.0
 
 
 def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:

@@ -18,29 +18,34 @@ PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
 
 
 def make_solids(
-    wires: tuple[Wire, ...], config: Config, folder: Path | None
+    wires: tuple[Wire, ...], config: Config, folder: Path | None, suffix: str = ""
 ) -> tuple[JigSet, tuple[Finding, ...]]:
-    """The jigs, built and checked; their files in `folder`. The result holds no kernel shapes."""
+    """The jigs, built and checked; their files in `folder`, `jig{suffix}.step` and so on.
+
+    The result holds no kernel shapes.
+    """
     from wrapit.jig.stage import build_jig
 
     jigs, findings = build_jig(wires, config.jig)
     if folder is not None:
-        findings += _write(jigs, wires, config, folder)
+        findings += _write(jigs, wires, config, folder, suffix)
     bare = tuple(
         dataclasses.replace(jig, part=dataclasses.replace(jig.part, solid=None)) for jig in jigs.jigs
     )
     return dataclasses.replace(jigs, jigs=bare), findings
 
 
-def _write(jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path) -> tuple[Finding, ...]:
+def _write(
+    jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path, suffix: str
+) -> tuple[Finding, ...]:
     from wrapit.kernel.files import write_3mf, write_step, write_stl
 
     findings: tuple[Finding, ...] = ()
     if "step" in config.outputs:
-        findings = _write_wires(wires, config.name, folder / "wires.step")
-        write_step(folder / "jig.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
+        findings = _write_wires(wires, config.name, folder / f"wires{suffix}.step")
+        write_step(folder / f"jig{suffix}.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
     for jig in jigs.jigs:
-        stem = jig.name if len(jigs.jigs) > 1 else "jig"
+        stem = f"{jig.name if len(jigs.jigs) > 1 else 'jig'}{suffix}"
         if "stl" in config.outputs:
             write_stl(folder / f"{stem}.stl", [jig.part.solid], config.jig.stl_tolerance)
         if "3mf" in config.outputs:

@@ -1,0 +1,36 @@
+"""The mirror image of wires, for the other one of a pair of earrings."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from wrapit.geometry import BSpline
+from wrapit.wires.model import Side, Wire
+
+_OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left", "both": "both"}
+_FLIP = np.array([-1.0, 1.0])
+
+
+def mirrored(wires: Sequence[Wire]) -> tuple[Wire, ...]:
+    """The wires with left and right exchanged (x → −x); lengths, heights and connections stay.
+
+    Traversals still name the segments of the drawing, which is not mirrored.
+    """
+    return tuple(_mirrored(wire) for wire in wires)
+
+
+def _mirrored(wire: Wire) -> Wire:
+    line = wire.centreline
+    return dataclasses.replace(
+        wire,
+        centreline=BSpline(line.degree, line.poles * _FLIP, line.knots),
+        turns=tuple(dataclasses.replace(turn, inside=_OTHER_SIDE[turn.inside]) for turn in wire.turns),
+        bindings=tuple(
+            dataclasses.replace(binding, point=(-binding.point[0], binding.point[1]))
+            for binding in wire.bindings
+        ),
+    )
