@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from wrapit.errors import KernelError
@@ -52,6 +53,20 @@ def test_faces_of_splines_have_the_right_area() -> None:
     chain = as_chain(Arc((3.0, 1.0), 7.0, 0.2, 2 * math.pi))
     assert isinstance(chain, BezierChain)
     assert abs(_area(region_face(Region(Loop((chain,)))))) == pytest.approx(49 * math.pi, rel=1e-9)
+
+
+@pytest.mark.parametrize("at_start", [True, False])
+def test_slivers_in_an_outline_are_passed_over(at_start: bool) -> None:
+    points = as_chain(Arc((0.0, 0.0), 7.0, 0.0, math.pi)).points
+    sliver = np.arange(4)[:, None] * np.array([0.0, 2e-8])
+    if at_start:
+        points = np.concatenate([[points[0, 0] - sliver[::-1]], points])
+    else:
+        points = np.concatenate([points, [points[-1, 3] - sliver]])
+    ends = [(float(x), float(y)) for x, y in (points[-1, 3], points[0, 0])]
+    face = region_face(Region(Loop((BezierChain(points), Line(*ends)))))
+    assert is_valid(face)
+    assert abs(_area(face)) == pytest.approx(49 * math.pi / 2, rel=1e-6)
 
 
 def test_what_lies_outside_is_an_error_with_the_place() -> None:

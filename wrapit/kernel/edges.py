@@ -16,6 +16,7 @@ from wrapit.geometry.polygons import loop_area_mm2
 # OCCT (and every program on it) integrates areas and volumes along an edge with few points however many
 # spans it has: long splines made a jig's volume wrong by up to 1.4e-3. Over edges of one span it is exact.
 MAX_SPANS = 1
+SLIVER_MM = 1e-6  # the kernel takes the ends of a shorter edge for one point
 
 
 def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
@@ -98,9 +99,21 @@ def edge_start(edge: Edge) -> tuple[float, float]:
 def _short(edge: Edge) -> list[Edge]:
     if not isinstance(edge, BezierChain) or len(edge) <= MAX_SPANS:
         return [edge]
-    count = -(-len(edge) // MAX_SPANS)
-    cuts = np.linspace(0, len(edge), count + 1).round().astype(int)
-    return [BezierChain(edge.points[a:b]) for a, b in itertools.pairwise(cuts)]
+    points = _without_slivers(edge.points)
+    count = -(-len(points) // MAX_SPANS)
+    cuts = np.linspace(0, len(points), count + 1).round().astype(int)
+    return [BezierChain(points[a:b]) for a, b in itertools.pairwise(cuts)]
+
+
+def _without_slivers(points: FloatArray) -> FloatArray:
+    """The cubics (n, 4, 2) less those too short for an edge of their own; the ends stay where they are."""
+    long = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1) > SLIVER_MM
+    if long.all() or not long.any():
+        return points
+    kept = points[long].copy()
+    kept[1:, 0] = kept[:-1, 3]
+    kept[0, 0], kept[-1, 3] = points[0, 0], points[-1, 3]
+    return kept
 
 
 def _backwards(edge: Edge) -> Edge:
