@@ -32,11 +32,11 @@ demo: $(READY) ## build the butterfly from its bitmap and say where the files ar
 all: $(PIECES) ## build every config (use -j)
 
 # One report per piece; make rebuilds it when the config, its drawing or wrapit itself changed.
-build/%: build/%/report.json ;
+build/%: build/%/report.json ; @: ## build one piece: make build/leaf
 
 .SECONDEXPANSION:
 build/%/report.json: configs/%.yaml $$(wildcard configs/$$*.png configs/$$*.svg configs/$$*.json) $(READY) $(shell find wrapit -name '*.py')
-	$(BIN)/wrapit build $< -o $(@D)
+	$(BIN)/wrapit build $< -o $(@D) --force
 
 check: lint types imports ## every gate: lint, format, types, import arrows
 
