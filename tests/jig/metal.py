@@ -1,4 +1,4 @@
-"""Wires made directly from curves, without a drawing."""
+"""Wires made directly from curves, without a drawing, and their jigs."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from wrapit.geometry import BezierChain, BSpline, FloatArray, from_chain, straig
 from wrapit.geometry.loops import Arc
 from wrapit.geometry.parallels import as_chain
 from wrapit.geometry.pieces import chain_of
+from wrapit.jig.model import Jig
+from wrapit.jig.stage import build_jig
 from wrapit.wires.lifts import lay_wires
 from wrapit.wires.model import Wire
 from wrapit.wires.turns import find_turns
@@ -47,6 +49,20 @@ def wires_of(
         )
         for index, (chain, spline, lift) in enumerate(zip(chains, splines, lifts, strict=True), start=1)
     )
+
+
+def config(**values: object) -> JigConfig:
+    """Jig settings as a user would write them."""
+    return JigConfig.model_validate(values)
+
+
+def only(chains: Sequence[BezierChain], **values: object) -> Jig:
+    """The single jig of wires along these chains."""
+    settings = config(**values)
+    jigs, _ = build_jig(wires_of(chains, settings), settings)
+    assert jigs.split == "single"
+    (jig,) = jigs.jigs
+    return jig
 
 
 def circle(radius_mm: float, centre: tuple[float, float] = (0.0, 0.0)) -> BezierChain:

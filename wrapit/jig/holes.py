@@ -8,32 +8,32 @@ from typing import Any
 import numpy as np
 
 from wrapit.config import JigConfig
-from wrapit.geometry import Arc, FloatArray, Line, Loop, unit
+from wrapit.geometry import Arc, FloatArray, Line, Loop
 from wrapit.geometry.outlines import Outliner
 from wrapit.jig.course import Course
 from wrapit.jig.model import Hole
+from wrapit.jig.tails import FOOT_MM, tail_slots
 
 HOLE_OVER_WIRE_MM = 0.5
 WEB_MM = 0.8  # holes with less plate between them become one
-FOOT_MM = 0.1  # between a hole's rim and a wall's foot
 _PAD_MM, _SLACK_MM = 3e-4, 1.2e-3
 
 
 def start_holes(course: Course, config: JigConfig) -> tuple[Hole, ...]:
-    """A hole at each end of each wire, with a slot along the tail; ends that meet share one hole."""
+    """A hole for each end of each wire, with a slot along the tail; ends that meet share one hole."""
     import shapely
 
     diameter = max(config.min_hole, course.diameter_mm + HOLE_OVER_WIRE_MM)
-    tails = [tail for wire in course.wires for tail in _tails(wire.centreline.poles, wire.name, config)]
-    near = shapely.buffer([shapely.LineString(ends) for _, ends in tails], (diameter + WEB_MM) / 2)
+    slots = tail_slots(course, diameter, config)
+    near = shapely.buffer([shapely.LineString(slot.line) for slot in slots], (diameter + WEB_MM) / 2)
     clusters = shapely.get_parts(shapely.union_all(near))
     clusters = sorted(clusters, key=lambda part: tuple(np.round(part.bounds, 6)))
     holes = []
     for cluster in clusters:
-        mine = [(name, ends) for name, ends in tails if cluster.contains(shapely.Point(ends[0]))]
-        names = tuple(dict.fromkeys(name for name, _ in mine))
-        outline = _outline([ends for _, ends in mine], diameter)
-        first = mine[0][1][0]
+        mine = [slot for slot in slots if cluster.contains(shapely.Point(slot.line[0]))]
+        names = tuple(dict.fromkeys(slot.wire for slot in mine))
+        outline = _outline([slot.line for slot in mine], diameter)
+        first = mine[0].line[0]
         holes.append(Hole((float(first[0]), float(first[1])), diameter, names, outline))
     return tuple(holes)
 
@@ -48,16 +48,6 @@ def hole_rims(holes: tuple[Hole, ...]) -> Any:
 def hole_obstacles(holes: tuple[Hole, ...]) -> Any:
     """Where no wall may stand because of the holes."""
     return hole_rims(holes).buffer(FOOT_MM, quad_segs=16)
-
-
-def _tails(poles: FloatArray, name: str, config: JigConfig) -> list[tuple[str, FloatArray]]:
-    """The wire's two ends, each with the point to which its slot runs, (2, 2)."""
-    tails = []
-    for end in (poles, poles[::-1]):
-        apart = np.linalg.norm(end - end[0], axis=1)
-        outward = unit(end[0] - end[int(np.argmax(apart > 1e-6))])
-        tails.append((name, np.array([end[0], end[0] + config.tail_slot * outward])))
-    return tails
 
 
 def _outline(tails: list[FloatArray], diameter: float) -> Loop:

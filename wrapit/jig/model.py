@@ -75,7 +75,10 @@ class JigPlan:
 
 @dataclass(frozen=True)
 class TurnSupport:
-    """Share of one turn's arc length that has wall at the right distance on the inside."""
+    """Share of one turn's arc length that has wall at the right distance on the inside.
+
+    For a long stretch (`turn.inside` is "both"), on either side.
+    """
 
     turn: Turn
     share: float

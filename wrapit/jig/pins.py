@@ -6,17 +6,23 @@ import math
 from typing import Any
 
 from wrapit.config import JigConfig
+from wrapit.jig.blanks import TOUCH_MM, face_probes
 from wrapit.jig.course import Course
 from wrapit.jig.model import Pin
 from wrapit.wires.model import Turn
 
 SMALLEST_PIN_MM = 0.6
 PIN_STEP_MM = 0.1  # rods and drills come in steps of this
+STEP_MM = 0.05
+HELD = 0.5  # a turn with wall along this share needs no pin
 WEB_MM = 0.5  # plate between a pin's hole and anything else
 
 
-def pin_holes(course: Course, config: JigConfig, holes: Any) -> tuple[Pin, ...]:
-    """A pin in the middle of each turn whose inside is narrower than the narrowest wall.
+def pin_holes(course: Course, config: JigConfig, holes: Any, walls: Any) -> tuple[Pin, ...]:
+    """A pin in the middle of each turn that is narrower than the narrowest wall and that no wall holds.
+
+    `walls` is what could be printed without pins: between legs that part, a wall's tip can be narrower
+    than its foot, and then it holds the turn better than a pin.
 
     None where not even the thinnest pin fits, or where it would stand in a wire's way or in a start hole.
     """
@@ -29,7 +35,7 @@ def pin_holes(course: Course, config: JigConfig, holes: Any) -> tuple[Pin, ...]:
     for wire in course.wires:
         for turn in wire.turns:
             pin = _pin(course, turn, config)
-            if pin is None:
+            if pin is None or _held(course, turn, walls) >= HELD:
                 continue
             disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
             if course.channels.intersects(disc.buffer(-0.02)) or taken.intersects(disc.buffer(WEB_MM)):
@@ -48,11 +54,19 @@ def pin_obstacles(pins: tuple[Pin, ...]) -> Any:
     )
 
 
+def _held(course: Course, turn: Turn, walls: Any) -> float:
+    """The share of a turn's inside that has a wall."""
+    import shapely
+
+    probes = shapely.points(face_probes(course, turn, STEP_MM, TOUCH_MM))
+    return float(shapely.contains(walls, probes).mean())
+
+
 def _pin(course: Course, turn: Turn, config: JigConfig) -> Pin | None:
     if turn.inside == "both" or turn.max_curvature_per_mm <= 0:
         return None
     side = 1.0 if turn.inside == "left" else -1.0
-    _, points, normals, curvature = course.stations(turn, 0.05)
+    _, points, normals, curvature = course.stations(turn, STEP_MM)
     tightest = int((side * curvature).argmax())
     bend = float(side * curvature[tightest])
     if bend <= 0:

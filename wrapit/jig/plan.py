@@ -33,9 +33,12 @@ def plan_jig(
     course = Course.of(wires, config)
     holes = start_holes(course, config)
     rims = hole_rims(holes)
-    pins = pin_holes(course, config, rims)
-    blocked = shapely.union_all([hole_obstacles(holes), pin_obstacles(pins)])
+    blocked = hole_obstacles(holes)
     polygons, dropped = wall_polygons(course, config, blocked)
+    pins = pin_holes(course, config, rims, shapely.union_all([polygon for polygon, _ in polygons]))
+    if pins:
+        blocked = shapely.union_all([blocked, pin_obstacles(pins)])
+        polygons, dropped = wall_polygons(course, config, blocked)
     heights = wall_heights(course, [polygon for polygon, _ in polygons], config)
     walls = tuple(
         Wall(turns, polygon, height) for (polygon, turns), height in zip(polygons, heights, strict=True)

@@ -15,7 +15,7 @@ WEAK = 0.5  # turns with wall along less than this share are named
 def support_findings(
     course: Course, plan: JigPlan, support: Iterable[TurnSupport], config: JigConfig
 ) -> tuple[Finding, ...]:
-    """A finding for each turn that is held badly: a pin takes it, or what could be done."""
+    """A finding for each turn or long stretch that is held badly: a pin takes it, or what could be done."""
     pins = {pin.turn: pin for pin in plan.pins}
     findings = []
     for one in support:
@@ -29,6 +29,16 @@ def support_findings(
                     where,
                     f"this turn is too tight for a wall; put a pin of {diameter:.1f} mm into its hole",
                     "bend the wire around the pin",
+                )
+            )
+        elif one.share < WEAK and one.turn.inside == "both":
+            findings.append(
+                Finding(
+                    "warning",
+                    "weak-stretch",
+                    where,
+                    f"{one.share:.0%} of this long stretch has a wall on either side",
+                    "keep it straight by hand, make the piece larger, or set jig.split to per-wire",
                 )
             )
         elif one.share < WEAK:

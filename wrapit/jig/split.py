@@ -53,7 +53,7 @@ def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
     for reach in reaches:
         shapely.prepare(reach)
     for i, course in enumerate(courses):
-        turns = course.wires[0].turns
+        turns = [turn for turn in course.wires[0].turns if turn.inside != "both"]
         if not turns:
             continue
         probes = shapely.points(

@@ -18,7 +18,10 @@ DISTANCE_STEP_MM = 0.03
 
 
 def turn_support(course: Course, walls: Sequence[Region]) -> tuple[TurnSupport, ...]:
-    """For each turn the share of its length that has wall at the right distance on the inside."""
+    """For each turn the share of its length that has wall at the right distance on the inside.
+
+    A long stretch has no inside; what counts there is wall at the right distance on either side.
+    """
     import shapely
 
     tree = shapely.STRtree([polygon_of(wall, 1e-3) for wall in walls])
@@ -28,26 +31,39 @@ def turn_support(course: Course, walls: Sequence[Region]) -> tuple[TurnSupport, 
             probes = shapely.points(face_probes(course, turn, PROBE_STEP_MM, PROBE_DEPTH_MM))
             hit = np.zeros(len(probes))
             hit[tree.query(probes, predicate="within")[0]] = 1.0
-            sides = hit.reshape(len(SIDES[turn.inside]), -1)
-            ends = np.ones(sides.shape[1])
+            held = hit.reshape(len(SIDES[turn.inside]), -1).max(axis=0)
+            ends = np.ones(len(held))
             ends[[0, -1]] = 0.5
-            shares.append(TurnSupport(turn, float((sides.mean(axis=0) * ends).sum() / ends.sum())))
+            shares.append(TurnSupport(turn, float((held * ends).sum() / ends.sum())))
     return tuple(shares)
 
 
 def total_support(support: Iterable[TurnSupport]) -> float:
-    """The supported share of the length of all these turns; 1 where there is none."""
-    lengths = [(s.turn.end_mm - s.turn.start_mm, s.share) for s in support]
-    total = sum(length for length, _ in lengths)
-    return sum(length * share for length, share in lengths) / total if total > 0 else 1.0
+    """The supported share of the length of all these turns; 1 where there is none.
+
+    Long stretches are no turns: the hand doesn't bend the wire there. They are left out here, and
+    `stretch_support` gives theirs. They are many times longer than the turns and would hide a bad one.
+    """
+    return _share(one for one in support if one.turn.inside != "both")
+
+
+def stretch_support(support: Iterable[TurnSupport]) -> float:
+    """The share of the length of all long stretches that has a wall on either side; 1 where there is none."""
+    return _share(one for one in support if one.turn.inside == "both")
 
 
 def support_by_wire(support: Iterable[TurnSupport]) -> dict[str, float]:
-    """The supported share for each wire that has turns."""
+    """The supported share of each wire's turns, long stretches left out; 1 for a wire that has no others."""
     grouped: dict[str, list[TurnSupport]] = {}
     for one in support:
         grouped.setdefault(one.turn.wire, []).append(one)
     return {wire: total_support(of_wire) for wire, of_wire in grouped.items()}
+
+
+def _share(support: Iterable[TurnSupport]) -> float:
+    lengths = [(s.turn.end_mm - s.turn.start_mm, s.share) for s in support]
+    total = sum(length for length, _ in lengths)
+    return sum(length * share for length, share in lengths) / total if total > 0 else 1.0
 
 
 def min_wall_to_wire_mm(course: Course, walls: Sequence[Region]) -> tuple[float | None, FloatArray]:
