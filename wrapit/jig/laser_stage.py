@@ -93,7 +93,8 @@ def plan_stack(
     course = Course.of(wires, wide)
     holes = start_holes(course, wide)
     rims = hole_rims(holes)
-    pins = pin_holes(course, wide, rims)
+    bare, _ = wall_polygons(course, wide, rims.buffer(HOLE_WEB_MM + config.fit, quad_segs=16))
+    pins = pin_holes(course, wide, rims, shapely.union_all([polygon for polygon, _ in bare]))
     discs = [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2, quad_segs=32) for pin in pins]
     clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
     polygons, dropped = wall_polygons(course, wide, clear)
