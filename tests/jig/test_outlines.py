@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.jig.metal import circle, scribble
@@ -18,7 +18,6 @@ from wrapit.geometry.parallels import Side, as_chain
 from wrapit.geometry.polygons import (
     fitted_edges,
     loop_area_mm2,
-    polygon_of,
     region_area_mm2,
 )
 from wrapit.jig.support import edge_points
@@ -31,7 +30,8 @@ def outlined(edges, box):
     lines = [shapely.LineString(as_chain(edge).sampled(0.01)) for edge in edges]
     grown = shapely.union_all(shapely.buffer(lines, R + 3e-4, quad_segs=32))
     parts = shapely.get_parts(box.difference(grown))
-    return outliner, [outliner.region(part) for part in sorted(parts, key=lambda p: p.bounds)]
+    parts = sorted((part for part in parts if part.area > 0.05), key=lambda part: part.bounds)
+    return outliner, [outliner.region(part) for part in parts]
 
 
 def test_area_beside_a_line() -> None:
@@ -88,13 +88,13 @@ def test_nearest_finds_what_a_dense_search_finds() -> None:
 
 @settings(max_examples=8, deadline=None)
 @given(st.integers(0, 10_000))
+@example(150)  # all but a cusp: half a turn within a ten-thousandth of a cubic
+@example(177)  # a joint of curves behind the place where both parallels fold back
 def test_any_scribble_leaves_faces_at_the_right_distance(seed: int) -> None:
     rng = np.random.default_rng(seed)
     chains = [scribble(rng, 25, 8), scribble(rng, 25, 7, closed=True)]
     outliner, regions = outlined(chains, shapely.box(-2, -2, 27, 27))
     for region in regions:
-        if polygon_of(region, 1e-3).area < 0.05:
-            continue
         for loop in (region.outer, *region.holes):
             for edge, after in zip(loop.edges, loop.edges[1:] + loop.edges[:1], strict=True):
                 assert np.allclose(edge_points(edge, 1)[-1], edge_points(after, 1)[0], atol=1e-9)

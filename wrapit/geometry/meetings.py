@@ -118,7 +118,11 @@ def _joints(before: Run, after: Run) -> list[tuple[float, float]]:
 
 
 def _within_reach(parallel: Parallel, place: float, run_end: float) -> bool:
-    return isinstance(parallel, Round) or abs(place - run_end) <= REACH_PIECES
+    """Whether the parallel leads from the run's end to the place, not far and without folding back."""
+    if isinstance(parallel, Round):
+        return True
+    folds = parallel.folds(np.array([place]), np.array([run_end]))[0]
+    return abs(place - run_end) <= REACH_PIECES and not folds
 
 
 def _angle(circle: Round, point: FloatArray) -> float:

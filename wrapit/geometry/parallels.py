@@ -22,6 +22,8 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 TOLERANCE_MM = 5e-5
 _ARC_PIECE_RAD = math.pi / 24
 _CHECKS = np.array([0.25, 0.5, 0.75])
+_MAX_TURNING_RAD = 0.8
+_NARROWEST = 1e-9  # a share of a cubic; a cusp all but turns at once
 
 
 def as_chain(edge: Edge) -> BezierChain:
@@ -104,7 +106,9 @@ class Side:
         while True:
             cubics = _hermite(self.curves.cubics[which], low, high, self.offset_mm)
             error = _normal_error(self.curves.cubics[which], low, high, self.offset_mm, cubics)
-            bad = (error > TOLERANCE_MM) & (high - low > 1e-4)
+            # Where the curve turns much inside a piece, the error at three places says nothing of the rest.
+            turning = _turning(self.curves.cubics[which], low, high)
+            bad = ((error > TOLERANCE_MM) | (turning > _MAX_TURNING_RAD)) & (high - low > _NARROWEST)
             if not bad.any():
                 break
             middle = (low + high) / 2
@@ -169,6 +173,14 @@ def _hermite(pieces: FloatArray, low: FloatArray, high: FloatArray, offset: floa
     end, arriving = _parallel_points(pieces, high, offset)
     third = ((high - low) / 3)[:, None]
     return np.stack([start, start + third * leaving, end - third * arriving, end], axis=1)
+
+
+def _turning(pieces: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """How much each piece turns from low to high, (n,), from its tangents at five places."""
+    shares = (0.0, *_CHECKS, 1.0)
+    tangents = np.stack([_parallel_points(pieces, low + s * (high - low), 0.0)[1] for s in shares])
+    a, b = tangents[:-1], tangents[1:]
+    return np.abs(np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2))).sum(axis=0)
 
 
 def _normal_error(
