@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 
 # Cut lines nearer than this char the sheet between them.
 LEAST_CUT_DISTANCE_MM = 0.5
-# Webs below this break when the part is handled.
-LEAST_WEB_MM = 1.5
+# Webs below this are mentioned; they hold once the plate is glued down.
+THIN_WEB_MM = 1.5
+# Webs below this break when the part is lifted off the laser's bed.
+LEAST_WEB_MM = 0.8
 # Farther apart than this, distances don't matter.
 _REACH_MM = 5.0
 _FLAT_MM = 0.005
@@ -131,18 +133,15 @@ def _web(part: LaserPart, kerf_mm: float) -> tuple[float, Finding | None] | None
     pairs = _near_pairs(cuts)
     if not pairs:
         return None
-    narrow = [near for near in pairs if near.distance_mm - kerf_mm < LEAST_WEB_MM]
+    narrow = [near for near in pairs if near.distance_mm - kerf_mm < THIN_WEB_MM]
     nearest = min(pairs, key=lambda near: near.distance_mm)
     web_mm = nearest.distance_mm - kerf_mm
     if not narrow:
         return web_mm, None
     where = f"{part.jig}, part {part.label} at ({nearest.at[0]:.1f}, {nearest.at[1]:.1f})"
     count = f"{len(narrow)} webs are" if len(narrow) > 1 else "a web is"
-    message = f"{count} narrower than {LEAST_WEB_MM} mm, the narrowest {web_mm:.2f} mm; handle with care"
+    message = f"{count} narrower than {THIN_WEB_MM} mm, the narrowest {web_mm:.2f} mm; handle with care"
+    remedy = "glue this plate down before the pieces, or enlarge the piece"
     return web_mm, Finding(
-        "warning",
-        "narrow-web",
-        where,
-        message,
-        "glue this plate down before the pieces, or enlarge the piece",
+        "warning" if web_mm < LEAST_WEB_MM else "note", "narrow-web", where, message, remedy
     )
