@@ -55,7 +55,8 @@ def _built(picture: Path, size: str, gauge: str) -> tuple[str, float | None]:
     codes = Counter(f["code"] for f in built.report["findings"] if f["level"] != "note")
     print(
         f"{label} {len(built.report['wires']):2d} wires {jig['jigs']} {jig['split']:8s}"
-        f" valid {jig['valid']!s:5} support {jig['turn_support']:.3f} least distance {jig['min_wall_to_wire_mm']:.4f}"
+        f" valid {jig['valid']!s:5} support {jig['turn_support']:.3f}"
+        f" least distance {jig['min_wall_to_wire_mm']:.4f}"
         f" {built.timings_s['jig']:5.1f} s {dict(codes)}",
         flush=True,
     )
