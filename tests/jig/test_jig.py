@@ -229,3 +229,15 @@ def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPat
     assert region_area_mm2(bad.region) == pytest.approx(region_area_mm2(good.region), rel=1e-3)
     (finding,) = plain_finding((good, bad), "jig")
     assert finding.code == "plain-wall"
+
+
+def test_split_where_only_the_tail_of_another_wire_is_in_the_way() -> None:
+    # A corner, and a wire that ends in it: its hole takes the ground that the corner's wall would stand on.
+    corner = arcs((0, 0), 0, (15, 0), (1.3, 100), (15, 0))
+    ends = line((28, -10), (15.8, 0.4))
+    single, _ = build_jig(wires_of([corner, ends]), config(split="single"))
+    assert support_by_wire(single.jigs[0].support)["wire-01"] < 0.5
+    jigs, findings = build_jig(wires_of([corner, ends]), config())
+    assert len(jigs.jigs) == 2
+    assert support_by_wire(jigs.jigs[0].support)["wire-01"] > 0.95
+    assert "split" in {finding.code for finding in findings}

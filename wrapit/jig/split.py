@@ -8,8 +8,9 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray
-from wrapit.jig.blanks import face_probes
+from wrapit.jig.blanks import TOUCH_MM, face_probes
 from wrapit.jig.course import CHANNEL_PAD_MM, Course
+from wrapit.jig.holes import hole_obstacles, start_holes
 from wrapit.wires.model import Wire
 
 PROBE_STEP_MM = 0.2
@@ -40,9 +41,10 @@ def grouped(wires: Sequence[Wire], alone: Mapping[str, float], config: JigConfig
 
 
 def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
-    """Share of wire i's turns that lose their wall to the channel of wire j, (n, n); about right.
+    """Share of wire i's turns that lose their wall to the channel or holes of wire j, (n, n); about right.
 
-    A wall is lost where the other channel leaves less than the narrowest wall beside it.
+    A wall is lost where the other channel leaves less than the narrowest wall beside it, and where the
+    other's tails go down.
     """
     import shapely
 
@@ -50,17 +52,22 @@ def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
     courses = [Course.of((wire,), config) for wire in wires]
     half = config.min_wall_width / 2
     reaches = [course.channels.buffer(half - CHANNEL_PAD_MM, quad_segs=4) for course in courses]
-    for reach in reaches:
-        shapely.prepare(reach)
+    tails = [hole_obstacles(start_holes(course, config)) for course in courses]
+    for shape in (*reaches, *tails):
+        shapely.prepare(shape)
     for i, course in enumerate(courses):
         turns = [turn for turn in course.wires[0].turns if turn.inside != "both"]
         if not turns:
             continue
-        probes = shapely.points(
-            np.concatenate([face_probes(course, turn, PROBE_STEP_MM, half) for turn in turns])
+        face, inside = (
+            shapely.points(
+                np.concatenate([face_probes(course, turn, PROBE_STEP_MM, depth) for turn in turns])
+            )
+            for depth in (TOUCH_MM, half)
         )
-        free = ~shapely.contains(course.channels, probes)
-        for j, reach in enumerate(reaches):
+        free = ~shapely.contains(course.channels, inside)
+        for j in range(len(wires)):
             if i != j:
-                losses[i, j] = float((shapely.contains(reach, probes) & free).sum()) / len(probes)
+                lost = shapely.contains(reaches[j], inside) | shapely.contains(tails[j], face)
+                losses[i, j] = float((lost & free).sum()) / len(face)
     return losses
