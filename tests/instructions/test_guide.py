@@ -16,6 +16,7 @@ from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
 from wrapit.instructions.ties import assembly_order, binding_length_mm, find_ties
 from wrapit.instructions.wording import joint_phrase, listed, millimetres, shape_phrase, thickness
+from wrapit.jig.model import JigSet
 from wrapit.units import awg_diameter_mm
 
 VOID = {"meta", "link", "br", "img", "input", "hr"}
@@ -240,6 +241,9 @@ def test_springback_is_told() -> None:
     straight_wire = replace(wires[1], turns=())
     guide = plan_guide(solution, (bent, straight_wire), GuideConfig(), WireConfig(), name="eye")
     assert guide.sheets[1].overbend == ""
+    overbent = JigSet("per-wire", (), overbent=True)
+    guide = plan_guide(solution, (bent,), GuideConfig(), WireConfig(), name="eye", jigset=overbent)
+    assert "let it go" in guide.sheets[0].overbend
 
 
 def test_the_laser_cut_jig_has_its_page() -> None:

@@ -68,6 +68,15 @@ class JigConfig(Block):
     tail_slot: Length = 0.8
     """Start holes are this much longer in the direction of the wire's tail, so that it can be bent down."""
 
+    springback: Literal["report", "compensate"] = "report"
+    """What to do about wire that opens a little when it is let go.
+
+    `report`: the jig has the shape of the drawing, and the guide says how much further to bend.
+    `compensate`: the jig bends each wire further, by what metal and temper spring back
+    (curvature + 3.395 · proof stress / (E · diameter)), so that the wire let go has the shape of the
+    drawing. Overbent wires don't meet where they are drawn, so each gets a jig of its own.
+    """
+
     pins: bool = True
     """Holes for pins inside turns that are too tight for a wall."""
 

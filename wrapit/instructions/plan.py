@@ -43,7 +43,15 @@ def plan_guide(
         temper=wire_config.temper,
         materials=_materials(wires, ties, guide_config, wire_config),
         sheets=tuple(
-            _sheet(number, wire, drawing, ties, wire_config, _jig_of(wire, jigset))
+            _sheet(
+                number,
+                wire,
+                drawing,
+                ties,
+                wire_config,
+                _jig_of(wire, jigset),
+                overbent=jigset is not None and jigset.overbent,
+            )
             for number, wire in enumerate(wires, start=1)
         ),
         ties=ties,
@@ -84,7 +92,13 @@ def _materials(
 
 
 def _sheet(
-    number: int, wire: Wire, drawing: Drawing, ties: Sequence[Tie], wire_config: WireConfig, jig: str
+    number: int,
+    wire: Wire,
+    drawing: Drawing,
+    ties: Sequence[Tie],
+    wire_config: WireConfig,
+    jig: str,
+    overbent: bool,
 ) -> WireSheet:
     by_junction = {tie.junction: tie for tie in ties}
     return WireSheet(
@@ -93,7 +107,7 @@ def _sheet(
         thickness=thickness(wire.diameter_mm),
         tail_mm=(wire.cut_length_mm - wire.length_mm) / 2,
         jig=jig,
-        overbend=_overbend(wire, wire_config),
+        overbend=_overbend(wire, wire_config, overbent),
         steps=_steps(number, wire, drawing, by_junction),
         ties=tuple((by_junction[binding.junction], binding.at_mm) for binding in wire.bindings),
     )
@@ -135,8 +149,13 @@ def _arrival(number: int, junction: int, ties: dict[int, Tie], *, last: bool) ->
     return f"{place} The wire ends here; leave the tail.".strip() if last else place
 
 
-def _overbend(wire: Wire, wire_config: WireConfig) -> str:
+def _overbend(wire: Wire, wire_config: WireConfig, overbent: bool) -> str:
     """How far to bend beyond the shape, because the metal springs back when it is let go."""
+    if overbent:
+        return (
+            "The jig bends the wire a little further than the pictures show, by what the metal springs "
+            "back: press it close to the walls, then lift it out and let it go."
+        )
     curvature = max((turn.max_curvature_per_mm for turn in wire.turns), default=0.0)
     if curvature <= 0:
         return ""

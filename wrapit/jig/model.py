@@ -116,7 +116,11 @@ class Jig:
 
 @dataclass(frozen=True, eq=False)
 class JigSet:
-    """All jigs of a piece; `split` is "per-wire" as soon as the wires are parted over several jigs."""
+    """All jigs of a piece; `split` is "per-wire" as soon as the wires are parted over several jigs.
+
+    `overbent` says that they bend each wire further than drawn, by what it springs back.
+    """
 
     split: Literal["single", "per-wire"]
     jigs: tuple[Jig, ...]
+    overbent: bool = False

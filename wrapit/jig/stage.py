@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
@@ -22,13 +24,21 @@ WORTH_A_JIG = 0.1  # support that a badly held wire must gain
 def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
     """The printed jig of these wires, or several where one would hold a wire badly; checked.
 
+    Overbent wires (`springback: compensate`) get a jig each: they don't meet as drawn.
     Raises JigError where no jig can be made or one fails its check, KernelError where the kernel fails.
     """
     if not wires:
         raise JigError("there are no wires to make a jig for")
+    overbent = config.springback == "compensate"
+    if overbent and config.split == "single" and len(wires) > 1:
+        raise JigError(
+            "overbent wires don't meet where they are drawn, so they can't share a jig",
+            "jig.springback",
+            "set jig.split to auto or per-wire, or jig.springback to report",
+        )
     if config.split == "single":
         return _set([_planned(wires, config, "jig")], config, ())
-    if config.split == "per-wire":
+    if config.split == "per-wire" or overbent:
         return _set([_planned((wire,), config, f"jig-{wire.name}") for wire in wires], config, ())
     single = _planned(wires, config, "jig")
     shared = single.by_wire
@@ -80,7 +90,8 @@ def _set(
     for part in parts:
         findings += [*part.findings, *plain_finding(part.faces, part.plan.name)]
         findings += [*support_findings(part.course, part.plan, part.support, config)]
-    return JigSet("single" if len(jigs) == 1 else "per-wire", jigs), tuple(findings)
+    split: Literal["single", "per-wire"] = "single" if len(jigs) == 1 else "per-wire"
+    return JigSet(split, jigs, overbent=config.springback == "compensate"), tuple(findings)
 
 
 def _built(part: _Planned, config: JigConfig) -> Jig:

@@ -66,6 +66,9 @@ class _Work:
     drawing: Drawing | None = None
     solution: Solution | None = None
     wires: tuple[Wire, ...] = ()
+    laid: tuple[Wire, ...] = ()
+    """The wires as they lie in the jig: bent further than drawn where it makes up for springback."""
+
     jigs: JigSet | None = None
     report: dict[str, Any] = field(default_factory=dict)
 
@@ -205,8 +208,20 @@ def _draw_wires(work: _Work, folder: Path | None) -> None:
         work.wires, findings = draw_wires(work.solution, work.config)
         work.findings += findings
         work.report["wires"] = reports.wire_numbers(work.wires)
+        work.laid = _laid(work)
         if folder is not None:
             write_text(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
+
+
+def _laid(work: _Work) -> tuple[Wire, ...]:
+    if work.config.jig.springback == "report":
+        return work.wires
+    from wrapit.wires.springback import overbend_wires
+
+    bent, findings = overbend_wires(work.wires, work.config)
+    work.findings += findings
+    work.report["springback"] = reports.springback_numbers(bent)
+    return tuple(each.wire for each in bent)
 
 
 def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
@@ -214,10 +229,10 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
         limit_s = 120 + 60 * len(work.wires)
         files = folder if work.reaches("exports") else None
         work.jigs, findings = worker.run(
-            f"{work.config.name}: jig", limit_s, make_solids, work.wires, work.config, files
+            f"{work.config.name}: jig", limit_s, make_solids, work.wires, work.laid, work.config, files
         )
         work.findings += findings
-        work.report["jig"] = reports.jig_numbers(work.jigs, work.wires)
+        work.report["jig"] = reports.jig_numbers(work.jigs, work.laid)
         if work.config.pair:
             _build_mirrored_jig(work, worker, limit_s, files)
 
@@ -225,13 +240,13 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
 def _build_mirrored_jig(work: _Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
     from wrapit.wires.mirror import mirrored
 
-    wires = mirrored(work.wires)
+    wires, laid = mirrored(work.wires), mirrored(work.laid)
     where = f"{work.config.name}: mirrored jig"
-    jigs, findings = worker.run(where, limit_s, make_solids, wires, work.config, folder, MIRRORED)
+    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, work.config, folder, MIRRORED)
     work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
-    work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, wires)
+    work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, laid)
     if folder is not None:
-        write_previews(folder, wires, jigs, MIRRORED)
+        write_previews(folder, laid, jigs, MIRRORED)
         if "dxf" in work.config.outputs:
             work.findings.append(ONE_PLATE)
 
@@ -241,9 +256,9 @@ def _export(work: _Work, folder: Path) -> None:
     assert work.jigs is not None
     config, laser = work.config, None
     with work.stage("exports"):
-        write_previews(folder, work.wires, work.jigs)
+        write_previews(folder, work.laid, work.jigs)
         if "dxf" in config.outputs:
-            laser, findings = write_plate(folder, work.wires, work.jigs, config)
+            laser, findings = write_plate(folder, work.laid, work.jigs, config)
             work.findings += findings
             work.report["plate"] = reports.plate_numbers(laser)
         if "guide" in config.outputs:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import math
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
@@ -20,6 +21,7 @@ from wrapit.jig.model import JigSet
 from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.folder import Artifact
 from wrapit.wires.model import Wire
+from wrapit.wires.springback import Overbent
 
 FORMAT = "wrapit-report/1"
 
@@ -98,6 +100,19 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }
+
+
+def springback_numbers(bent: Sequence[Overbent]) -> list[dict[str, Any]]:
+    """The `springback` block of a jig that makes up for it, by wire."""
+    return [
+        {
+            "name": each.wire.name,
+            "overbend_deg": round(math.degrees(each.overbend_rad), 2),
+            "moved_mm": _mm(each.moved_mm),
+            "residual_mm": _mm(each.residual_mm),
+        }
+        for each in bent
+    ]
 
 
 def plate_numbers(laser: LaserJig) -> dict[str, Any]:

@@ -18,15 +18,15 @@ PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
 
 
 def make_solids(
-    wires: tuple[Wire, ...], config: Config, folder: Path | None, suffix: str = ""
+    wires: tuple[Wire, ...], laid: tuple[Wire, ...], config: Config, folder: Path | None, suffix: str = ""
 ) -> tuple[JigSet, tuple[Finding, ...]]:
     """The jigs, built and checked; their files in `folder`, `jig{suffix}.step` and so on.
 
-    The result holds no kernel shapes.
+    `laid` are the wires as they lie in the jig. The result holds no kernel shapes.
     """
     from wrapit.jig.stage import build_jig
 
-    jigs, findings = build_jig(wires, config.jig)
+    jigs, findings = build_jig(laid, config.jig)
     if folder is not None:
         findings += _write(jigs, wires, config, folder, suffix)
     bare = tuple(
