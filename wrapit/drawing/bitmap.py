@@ -8,7 +8,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import Piece, Placement, assemble, placement
-from wrapit.drawing.centring import Line, centre_lines
+from wrapit.drawing.centring import Line, centre_lines, renewed
 from wrapit.drawing.cleanup import (
     Radii,
     contract_short,
@@ -56,10 +56,10 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     refuse_loose_strokes(net, str(path))
     lines = centre_lines(net, ink, width_px)
     open_tips(net, lines, width_px)
-    join_crossings(net, lines, width_px)
+    join_crossings(net, lines, ink, width_px)
     contract_short(net, radius, 1.0)
     if tidy(net, radius, width_px):
-        lines = centre_lines(net, ink, width_px)
+        lines = renewed(net, lines, ink, width_px)
     close_gaps(net, lines, ink, width_px)
     split_corners(net, lines, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))

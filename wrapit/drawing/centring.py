@@ -45,9 +45,20 @@ class Line:
         return Line(points, self.width[order], self.clean[order], lengths(points))
 
 
-def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
+def renewed(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
+    """The lines of a network that has changed: those of strands that are new are centred now."""
+    fresh = [strand for strand in net.strands if strand not in lines]
+    kept = {strand: line for strand, line in lines.items() if strand in net.strands}
+    return kept | centre_lines(net, ink, width_px, fresh)
+
+
+def centre_lines(
+    net: Network, ink: Ink, width_px: float, strands: list[int] | None = None
+) -> dict[int, Line]:
     """The centred line of each strand, walking from its start; closed loops lose nothing at the seam."""
-    strands = list(net.strands)
+    strands = list(net.strands) if strands is None else strands
+    if not strands:
+        return {}
     step = max(1.0, width_px / 8)
     paths = [_resampled(net.path(strand), step) for strand in strands]
     loops = [
@@ -56,11 +67,11 @@ def centre_lines(net: Network, ink: Ink, width_px: float) -> dict[int, Line]:
     sigma = max(_SMOOTHING * width_px, 1.0) / step
     # The first pass only has to come near enough for the second.
     for fineness in (8, 14):
-        paths = [_smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
+        paths = [smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
         points = np.concatenate(paths)
         bounds = np.cumsum([len(path) for path in paths])[:-1]
         normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
-        left, right = _edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness))
+        left, right = edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness))
         width = left + right
         shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
         points = points + np.nan_to_num(shift)[:, None] * normals
@@ -109,7 +120,7 @@ def _resampled(path: FloatArray, step: float) -> FloatArray:
     return np.column_stack([np.interp(at, along, path[:, 0]), np.interp(at, along, path[:, 1])])
 
 
-def _smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:
+def smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:
     """Gaussian smoothing that keeps the ends (a loop has none)."""
     reach = int(np.ceil(3 * sigma))
     if loop:
@@ -137,18 +148,26 @@ def _normals(path: FloatArray, loop: bool) -> FloatArray:
     return np.column_stack([-tangent[:, 1], tangent[:, 0]])
 
 
-def _edges(
-    ink: Ink, points: FloatArray, normals: FloatArray, reach: float, step: float
+def edges(
+    ink: Ink,
+    points: FloatArray,
+    normals: FloatArray,
+    reach: float,
+    step: float,
+    through_holes: bool = False,
 ) -> tuple[FloatArray, FloatArray]:
-    """Distance to the edge of the ink against and along the normal; nan where there is none in reach."""
+    """Distance to the edge of the ink against and along the normal; nan where there is none in reach.
+
+    `through_holes` starts at the first ink where a point lies on paper.
+    """
     count = int(np.ceil(reach / step))
     offsets = np.arange(-count, count + 1) * step
     places = points[:, None] + offsets[None, :, None] * normals[:, None]
     levels = sample(ink.grey, places) - ink.half
-    return (
-        _first_crossing(levels[:, count::-1], step),
-        _first_crossing(levels[:, count:], step),
-    )
+    sides = [levels[:, count::-1], levels[:, count:]]
+    if through_holes:
+        sides = [np.where(np.logical_or.accumulate(side <= 0, axis=1), side, -1.0) for side in sides]
+    return _first_crossing(sides[0], step), _first_crossing(sides[1], step)
 
 
 def _first_crossing(levels: NDArray[np.float32], step: float) -> FloatArray:

@@ -8,15 +8,18 @@ from __future__ import annotations
 import numpy as np
 
 from wrapit.drawing.centring import Line, lengths
+from wrapit.drawing.ink import Ink
 from wrapit.drawing.joining import rejoin
 from wrapit.drawing.junctions import Arm, Through
 from wrapit.drawing.network import Network
 from wrapit.drawing.shared import Explanation, explain, worth_explaining
+from wrapit.drawing.unzipping import unzip_ribbons
 from wrapit.geometry import FloatArray
 
 
-def join_crossings(net: Network, lines: dict[int, Line], width_px: float) -> None:
+def join_crossings(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
     """Makes crossings of forks between which two strokes cross, and parts strokes that only touch."""
+    unzip_ribbons(net, lines, ink, width_px)
     found = []
     for strand, s in net.strands.items():
         if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:

@@ -57,7 +57,7 @@ def worth_explaining(line: Line, width_px: float) -> bool:
     """Whether a stretch is short, or wider than one stroke."""
     if line.length > _LONGEST * width_px:
         return False
-    return line.length <= _SHORT * width_px or _excess(line, width_px) >= _EXCESS
+    return line.length <= _SHORT * width_px or excess(line, width_px) >= _EXCESS
 
 
 def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
@@ -133,7 +133,7 @@ def _meetings(a: Through, b: Through, width_px: float) -> tuple[list[Meeting], f
     return found, float(np.linalg.norm(first[:, None] - second[None], axis=2).min())
 
 
-def _excess(line: Line, width_px: float) -> float:
+def excess(line: Line, width_px: float) -> float:
     """How much wider (stroke widths) the ink along a line is than one stroke, on average."""
     width = np.where(np.isfinite(line.width), np.minimum(line.width, 2 * width_px), 2 * width_px)
     return float(width.mean()) / width_px - 1
