@@ -66,14 +66,20 @@ def delaunay(rng: np.random.Generator, segments: int) -> Graph:
 
 def cactus(rng: np.random.Generator, segments: int) -> Graph:
     """Rings and twigs that hang on one another at cut junctions, the hardest kind for robustness."""
+    return flowers(rng, segments, None, 0.4)
+
+
+def flowers(rng: np.random.Generator, segments: int, hubs: int | None, twigs: float) -> Graph:
+    """A cactus on whose first `hubs` junctions everything hangs, on any junction if None; `twigs` is the
+    share of blocks that are open."""
     ends: list[int] = []
     junctions = 1
     while len(ends) < 2 * segments:
-        at = int(rng.integers(junctions))
+        at = int(rng.integers(junctions if hubs is None else min(junctions, hubs)))
         size = int(rng.integers(1, 6))
         ring = [at, *range(junctions, junctions + size - 1)]
         junctions += size - 1
-        if size > 1 and rng.random() < 0.4:
+        if size > 1 and rng.random() < twigs:
             ends += [j for pair in itertools.pairwise(ring) for j in pair]
         else:
             ends += [j for pair in zip(ring, [*ring[1:], at], strict=True) for j in pair]

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from wrapit.decomposition.cactus import solved_by_blocks
 from wrapit.decomposition.certificate import certify
 from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.graph import Graph
@@ -30,6 +31,8 @@ def certified(problem: Problem) -> Answer:
     graph = problem.graph
     if graph.bridges:
         return Answer((NO_MATE,) * (2 * graph.segments), 0, None)
+    if (answer := solved_by_blocks(problem)) is not None:
+        return answer
     root = _reasoned(problem, _Case())
     assert root is not None
     best, rounds = root, root.rounds

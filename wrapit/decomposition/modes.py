@@ -1,0 +1,85 @@
+"""What the branches at a junction do together, whatever joins them there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import NamedTuple
+
+from wrapit.decomposition.blocks import Doors
+from wrapit.decomposition.options import ENOUGH, Option
+
+
+class Branch(NamedTuple):
+    """A block that hangs on a junction by its doors, and what it can do."""
+
+    doors: Doors
+    options: Sequence[Option]
+
+
+def modes_of(branches: Sequence[Branch], weak_cost: float) -> list[Mode]:
+    """A mode for each way to say through which branches wires pass."""
+    ways = []
+    for branch in branches:
+        by_kind: dict[bool, dict[int, Option]] = {}
+        for option in branch.options:
+            by_kind.setdefault(option.through, {})[option.contacts] = option
+        ways.append(by_kind.values())
+    return [Mode(branches, chosen, weak_cost) for chosen in product(*ways)]
+
+
+class Mode:
+    """Branches of which it is known whether wires pass, with their options by contacts.
+
+    `least` are the cheapest of these, `cost` is their cost. Above that, `contacts[n]` is the cost of n
+    contacts in all branches together (2: or more), `touched[i]` that of any in branch i, `enough` the
+    least at which a wire with all the doors that it has of some branch touches another one in there.
+    `ends` counts the wire ends in all branches; `spared` is how much of the weight of weak wires they
+    can save together.
+    """
+
+    def __init__(
+        self, branches: Sequence[Branch], chosen: Sequence[Mapping[int, Option]], weak_cost: float
+    ) -> None:
+        self._chosen = chosen
+        self.least = [min(options.values()) for options in chosen]
+        self.cost = sum(option.cost for option in self.least)
+        self.through = tuple(option.through for option in self.least)
+        self.touched = [
+            min((option.cost for n, option in options.items() if n), default=math.inf) - least.cost
+            for options, least in zip(chosen, self.least, strict=True)
+        ]
+        self.contacts = {n: cost - self.cost for n, (cost, _) in self.totals().items()}
+        self.ends = 0
+        self.enough, self.spared = min(self.touched), 0.0
+        for branch, passes, touched in zip(branches, self.through, self.touched, strict=True):
+            if not passes:
+                self.ends += len(branch.doors)
+            if not passes and len(branch.doors) == 2:
+                # Two wires that have a door each touch one another in there.
+                self.enough = 0.0
+                self.spared += 2 * weak_cost
+            else:
+                self.spared += weak_cost - min(weak_cost, touched)
+
+    def totals(self) -> dict[int, tuple[float, tuple[Option, ...]]]:
+        """Least cost and options for each number of contacts that all branches together can have."""
+        totals: dict[int, tuple[float, tuple[Option, ...]]] = {0: (0.0, ())}
+        for options in self._chosen:
+            longer: dict[int, tuple[float, tuple[Option, ...]]] = {}
+            for n, option in options.items():
+                for m, (cost, chosen) in totals.items():
+                    k = min(n + m, ENOUGH)
+                    if k not in longer or cost + option.cost < longer[k][0]:
+                        longer[k] = cost + option.cost, (*chosen, option)
+            totals = longer
+        return totals
+
+    def in_touch(self, branch: int) -> Option:
+        """The cheapest option of a branch that has contacts; there is one where `touched` is finite."""
+        return min(option for n, option in self._chosen[branch].items() if n)
+
+    def out_of_touch(self, branch: int) -> Option | None:
+        """The option of a branch that has no contacts, if there is one."""
+        return self._chosen[branch].get(0)
