@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Final
+from typing import Final, Literal
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 _QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*([^\d\s].*?)?\s*$")
@@ -110,6 +110,38 @@ def gauge_diameter_mm(value: object) -> float:
             f"{value!r}: known SWG sizes are {', '.join(map(str, SWG_MM))}; or give a diameter in mm"
         )
     return SWG_MM[number]
+
+
+def point_mm(value: object) -> tuple[float, float]:
+    """A point in mm of `[12 mm, 30 mm]`; ValueError with a hint otherwise.
+
+    >>> point_mm(["1 cm", "-2.5 mm"])
+    (10.0, -2.5)
+    """
+    if not isinstance(value, list | tuple) or len(value) != 2:
+        raise ValueError(f"expected a point such as [12 mm, 30 mm], but got {_shown(value)}")
+    return length_mm(value[0]), length_mm(value[1])
+
+
+def place_mm(value: object) -> Literal["top"] | int | tuple[float, float]:
+    """`top`, the number of a junction, or a point in mm of `[12 mm, 30 mm]`; ValueError otherwise."""
+    if value == "top":
+        return "top"
+    if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
+        return value
+    if isinstance(value, list | tuple):
+        return point_mm(value)
+    raise ValueError(f"{value!r} is no place; write top, the number of a junction, or [12 mm, 30 mm]")
+
+
+def point_in_mm(point: tuple[float, float]) -> list[str]:
+    """A point as the config writes it."""
+    return [in_mm(point[0]), in_mm(point[1])]
+
+
+def place_in_mm(place: str | int | tuple[float, float]) -> str | int | list[str]:
+    """A place as the config writes it."""
+    return point_in_mm(place) if isinstance(place, tuple) else place
 
 
 def in_mm(value_mm: float) -> str:

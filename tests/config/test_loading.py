@@ -46,6 +46,9 @@ def test_units_become_millimetres(tmp_path: Path) -> None:
         (GOOD.replace("metal:", "metall:"), ":6:3 wire.metall", "unknown key", "did you mean 'metal'"),
         (GOOD.replace("size:", "sise:"), ":3:1 sise", "unknown key", "did you mean 'size'"),
         (GOOD + "jig: [1, 2]\n", ":7:1 jig", "valid", "schema"),
+        (GOOD + "bail: {diametre: 5 mm}\n", ":7:8 bail.diametre", "unknown key", "did you mean 'diameter'"),
+        (GOOD + "bail: {at: bottom}\n", ":7:8 bail.at", "'bottom' is no place", ""),
+        (GOOD + "bail: {at: [3, 4 mm]}\n", ":7:8 bail.at", "has no unit", ""),
         (GOOD + "decomposition: {seed: many}\n", ":7:17 decomposition.seed", "'many'", ""),
         (GOOD.replace("drawing: bee.png\n", ""), ":1:1 drawing", "missing", "add it"),
         (GOOD.replace("name: bee", "name: ../bee"), ":1:1 name", "pattern", ""),
@@ -130,3 +133,11 @@ def test_schema_documents_every_key() -> None:
 
 def test_the_schema_beside_our_configs_is_true() -> None:
     assert json.loads((CONFIGS / "schema.json").read_text(encoding="utf-8")) == schema()
+
+
+def test_places_are_written_as_they_are_read(tmp_path: Path) -> None:
+    for at, read in (("top", "top"), ("3", 3), ("[1 cm, -2 mm]", (10.0, -2.0))):
+        config = load(tmp_path, GOOD + f"bail: {{at: {at}}}\n")
+        assert config.bail is not None
+        assert config.bail.at == read
+        assert load(tmp_path, lock_text(config)).bail == config.bail

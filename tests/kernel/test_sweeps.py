@@ -11,7 +11,7 @@ from tests.jig.metal import arcs, circle, line, scribble, wires_of
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.kernel.checks import is_valid, size_mm, volume_mm3
-from wrapit.kernel.sweeps import round_wire
+from wrapit.kernel.sweeps import round_wire, torus
 
 D = 1.0237
 AREA = math.pi / 4 * D**2
@@ -81,3 +81,10 @@ def test_random_wires_are_valid() -> None:
     for wire in wires_of([scribble(rng, 60, 7) for _ in range(3)]):
         solid = round_wire(wire.centreline, 0.5, wire.lifts, wire.name).solid
         assert volume_mm3(solid) == pytest.approx(math.pi / 16 * wire.length_mm, rel=0.03)
+
+
+def test_a_ring_is_whole() -> None:
+    ring = torus((1, 2, 0), (0, 1, 0), 3.0, 0.5, "ring")
+    assert is_valid(ring)
+    assert volume_mm3(ring) == pytest.approx(2 * math.pi**2 * 3.0 * 0.5**2, rel=1e-6)
+    assert size_mm(ring) == pytest.approx((7, 1, 7), abs=1e-6)

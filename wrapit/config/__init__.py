@@ -1,5 +1,6 @@
 """The YAML config: frozen models, loading with exact places of mistakes, JSON schema."""
 
+from wrapit.config.bail import BailConfig
 from wrapit.config.decomposition import DecompositionConfig, WeightsConfig
 from wrapit.config.jig import JigConfig
 from wrapit.config.loading import load_config
@@ -9,6 +10,7 @@ from wrapit.config.root import Config, GuideConfig, WireConfig
 from wrapit.config.tracing import TracingConfig
 
 __all__ = [
+    "BailConfig",
     "Config",
     "DecompositionConfig",
     "GuideConfig",

@@ -5,7 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from types import UnionType
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -157,6 +158,8 @@ def _known_keys(blocks: Sequence[str | int]) -> list[str]:
     model: type[BaseModel] = Config
     for key in blocks:
         annotation = model.model_fields[str(key)].annotation if str(key) in model.model_fields else None
+        if isinstance(annotation, UnionType):  # a block that may be left out
+            annotation = next((each for each in get_args(annotation) if each is not type(None)), None)
         if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
             return []
         model = annotation

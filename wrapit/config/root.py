@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field, field_validator
 
+from wrapit.config.bail import BailConfig
 from wrapit.config.block import Block
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.config.jig import JigConfig
@@ -62,6 +63,9 @@ class Config(Block):
     jig: JigConfig = JigConfig()
     plate: PlateConfig = PlateConfig()
     guide: GuideConfig = GuideConfig()
+    bail: BailConfig | None = None
+    """A loop to hang the piece from, `{at: top, diameter: 5 mm}`; none unless given."""
+
     pair: bool = False
     """Also write the jig and the wires of the mirror image, for a pair of earrings."""
 

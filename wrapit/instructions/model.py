@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
 
 
 @dataclass(frozen=True)
@@ -77,3 +77,4 @@ class Guide:
     ties: tuple[Tie, ...]
     assembly: tuple[Placement, ...]
     binding_turns: int
+    ring: JumpRing | None = None

@@ -59,7 +59,15 @@ class Pictures:
         self.frame = SvgFrame.around(low, high, 0.3 * self.text_mm)
         self.ties = tuple(self._mark(label) for label in labels)
         self.starts = tuple(self._mark(label) for label in starts)
+        self.ring = self._ring(guide)
         self.shapes = {key: self.frame.path(chain) for key, chain in self._chains.items()}
+
+    def _ring(self, guide: Guide) -> tuple[str, str, str] | None:
+        """Middle and radius of the jump ring's mark."""
+        if guide.ring is None:
+            return None
+        x, y = self.frame.at(np.array(guide.ring.point))
+        return number(x), number(y), number((guide.ring.inner_diameter_mm + guide.ring.diameter_mm) / 2)
 
     def start_of(self, wire: int) -> tuple[str, str]:
         """Where a wire starts, on the page."""

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.decomposition.model import Solution, Traversal
 from wrapit.drawing.model import Drawing
-from wrapit.geometry import BezierChain
+from wrapit.geometry import BezierChain, FloatArray
 from wrapit.instructions.model import Guide, Material, Step, Tie, WireSheet
 from wrapit.instructions.ties import assembly_order, find_ties
 from wrapit.instructions.wording import bend_at, joint_phrase, listed, millimetres, shape_phrase, thickness
 from wrapit.jig.model import JigSet
 from wrapit.materials import METALS
-from wrapit.wires.model import Wire
+from wrapit.wires.model import Bail, JumpRing, Wire
 
 LEAST_SPRINGY_RADIUS_MM = 5.0
 
@@ -27,10 +29,11 @@ def plan_guide(
     *,
     name: str,
     jigset: JigSet | None = None,
+    ring: JumpRing | None = None,
 ) -> Guide:
     """The guide for these wires, in their order; ties are lettered, wires numbered from 1."""
     drawing = solution.decomposition.drawing
-    low, high = drawing.bounds_mm
+    low, high = _bounds_mm(drawing, wires)
     turns = guide_config.binding_turns
     ties = find_ties(wires, guide_config.binding_gauge, turns)
     return Guide(
@@ -41,7 +44,7 @@ def plan_guide(
         ),
         metal=wire_config.metal,
         temper=wire_config.temper,
-        materials=_materials(wires, ties, guide_config, wire_config),
+        materials=(*_materials(wires, ties, guide_config, wire_config), *_ring_material(ring, wire_config)),
         sheets=tuple(
             _sheet(
                 number,
@@ -57,7 +60,27 @@ def plan_guide(
         ties=ties,
         assembly=assembly_order(wires, ties),
         binding_turns=turns,
+        ring=ring,
     )
+
+
+def _bounds_mm(drawing: Drawing, wires: Sequence[Wire]) -> tuple[FloatArray, FloatArray]:
+    """Lower left and upper right corner of the centre lines, the bail's too."""
+    low, high = drawing.bounds_mm
+    for wire in wires:
+        if wire.bail is not None:
+            centre, radius = np.array(wire.bail.centre), (wire.bail.inner_diameter_mm + wire.diameter_mm) / 2
+            low, high = np.minimum(low, centre - radius), np.maximum(high, centre + radius)
+    return low, high
+
+
+def _ring_material(ring: JumpRing | None, wire_config: WireConfig) -> tuple[Material, ...]:
+    if ring is None:
+        return ()
+    mass_g = METALS[wire_config.metal].mass_g(ring.length_mm, ring.diameter_mm)
+    inside = f"1 ring, {ring.inner_diameter_mm:g} mm inside; or bend one round a rod of that thickness"
+    what = f"jump ring, {wire_config.metal}"
+    return (Material(what, thickness(ring.diameter_mm), ring.length_mm, mass_g, inside),)
 
 
 def _materials(
@@ -116,23 +139,42 @@ def _sheet(
 def _steps(number: int, wire: Wire, drawing: Drawing, ties: dict[int, Tie]) -> tuple[Step, ...]:
     steps: list[Step] = []
     before: BezierChain | None = None
-    for traversal, (start, end) in zip(wire.traversals, wire.segment_spans_mm, strict=True):
+    bail_first = wire.bail is not None and wire.bail.start_mm <= 0
+    if wire.bail is not None and bail_first:
+        steps.append(_bail_step(1, wire.bail))
+    spans = zip(wire.traversals, wire.segment_spans_mm, strict=True)
+    for index, (traversal, (start, end)) in enumerate(spans):
         curve = drawing.segments[traversal.segment].curve
         curve = curve.reversed() if traversal.reversed else curve
         shape = shape_phrase(curve)
         if before is None:
-            action = f"From the start mark, {shape}"
-        elif traversal.segment in {run.segment for run in wire.traversals[: len(steps)]}:
+            action = f"From the neck of the loop, {shape}" if bail_first else f"From the start mark, {shape}"
+        elif traversal.segment in {run.segment for run in wire.traversals[:index]}:
             turn = joint_phrase(bend_at(before.end_tangent, curve.start_tangent))
             action = f"{turn} and lay the wire back close along the stretch that it ran before"
         else:
             action = f"{joint_phrase(bend_at(before.end_tangent, curve.start_tangent))}, then {shape}"
         arrival = _arrival(
-            number, _end(drawing, traversal), ties, last=len(steps) + 1 == len(wire.traversals)
+            number,
+            _end(drawing, traversal),
+            ties,
+            last=index + 1 == len(wire.traversals) and (wire.bail is None or bail_first),
         )
         steps.append(Step(len(steps) + 1, start, end, action.rstrip(",") + ".", arrival))
         before = curve
+    if wire.bail is not None and not bail_first:
+        steps.append(_bail_step(len(steps) + 1, wire.bail))
     return tuple(steps)
+
+
+def _bail_step(number: int, bail: Bail) -> Step:
+    around = f"round a rod of {millimetres(bail.inner_diameter_mm)} or the post in the jig"
+    wrap = "wrap it twice round the neck when the piece is together."
+    if number == 1 and bail.start_mm <= 0:
+        action = f"From the start mark, bend the loop to hang the piece from {around}, and then its neck."
+        return Step(number, bail.start_mm, bail.end_mm, action, f"Leave the tail; {wrap}")
+    action = f"Bend the neck, and the loop to hang the piece from {around}, until it touches the neck again."
+    return Step(number, bail.start_mm, bail.end_mm, action, f"The wire ends here; leave the tail, and {wrap}")
 
 
 def _end(drawing: Drawing, traversal: Traversal) -> int:

@@ -12,7 +12,7 @@ from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.wording import listed, millimetres
 from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
 
 
 def write_instructions(
@@ -24,18 +24,19 @@ def write_instructions(
     name: str = "wire jewellery",
     jigset: JigSet | None = None,
     laser: LaserJig | None = None,
+    ring: JumpRing | None = None,
 ) -> str:
     """guide.html: materials, the making of each wire stretch by stretch, ties, assembly.
 
-    With a laser-cut jig, also how to glue it. The page needs no other file, no network and no script;
-    the same input gives the same text.
+    With a laser-cut jig, also how to glue it; with a jump ring, where it goes. The page needs no other
+    file, no network and no script; the same input gives the same text.
     Raises ValueError when there are no wires.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     if not wires:
         raise ValueError("a guide needs at least one wire")
-    guide = plan_guide(solution, wires, guide_config, wire_config, name=name, jigset=jigset)
+    guide = plan_guide(solution, wires, guide_config, wire_config, name=name, jigset=jigset, ring=ring)
     environment = Environment(
         loader=PackageLoader("wrapit.instructions", "templates"),
         autoescape=True,

@@ -52,6 +52,21 @@ def round_wire(
     return RoundWire(edge, None if flaw else solid, flaw)
 
 
+def torus(
+    centre: tuple[float, float, float],
+    axis: tuple[float, float, float],
+    radius_mm: float,
+    tube_mm: float,
+    name: str,
+) -> Any:
+    """A closed ring: a circle of `tube_mm` swept round the axis at `radius_mm`. Raises KernelError."""
+    with guarded("making the ring", name):
+        from OCP.BRepPrimAPI import BRepPrimAPI_MakeTorus
+        from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+        return BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(*centre), gp_Dir(*axis)), radius_mm, tube_mm).Solid()
+
+
 def _flaw(solid: Any, expected_mm3: float) -> str:
     got = volume_mm3(solid)
     if abs(got - expected_mm3) > VOLUME_TOLERANCE * expected_mm3:

@@ -27,7 +27,7 @@ from wrapit.pipeline.exporting import (
 from wrapit.pipeline.folder import REPORT, artifacts_in, check_target, replaced_whole, sha256
 from wrapit.pipeline.solids import PRELOAD, make_solids
 from wrapit.pipeline.worker import Worker
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
 
 Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
 STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
@@ -69,6 +69,7 @@ class _Work:
     laid: tuple[Wire, ...] = ()
     """The wires as they lie in the jig: bent further than drawn where it makes up for springback."""
 
+    ring: JumpRing | None = None
     jigs: JigSet | None = None
     report: dict[str, Any] = field(default_factory=dict)
 
@@ -203,12 +204,16 @@ def _draw_wires(work: _Work, folder: Path | None) -> None:
     assert work.solution is not None
     with work.stage("wires"):
         from wrapit.exports.decomposition_svg import decomposition_svg
+        from wrapit.wires.bail import jump_ring
         from wrapit.wires.stage import draw_wires
 
         work.wires, findings = draw_wires(work.solution, work.config)
         work.findings += findings
         work.report["wires"] = reports.wire_numbers(work.wires)
         work.laid = _laid(work)
+        work.ring = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
+        if work.config.bail is not None:
+            work.report["bail"] = reports.bail_numbers(work.wires, work.ring)
         if folder is not None:
             write_text(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
 
@@ -229,7 +234,14 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
         limit_s = 120 + 60 * len(work.wires)
         files = folder if work.reaches("exports") else None
         work.jigs, findings = worker.run(
-            f"{work.config.name}: jig", limit_s, make_solids, work.wires, work.laid, work.config, files
+            f"{work.config.name}: jig",
+            limit_s,
+            make_solids,
+            work.wires,
+            work.laid,
+            work.ring,
+            work.config,
+            files,
         )
         work.findings += findings
         work.report["jig"] = reports.jig_numbers(work.jigs, work.laid)
@@ -238,11 +250,11 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
 
 
 def _build_mirrored_jig(work: _Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
-    from wrapit.wires.mirror import mirrored
+    from wrapit.wires.mirror import mirrored, mirrored_ring
 
-    wires, laid = mirrored(work.wires), mirrored(work.laid)
+    wires, laid, ring = mirrored(work.wires), mirrored(work.laid), mirrored_ring(work.ring)
     where = f"{work.config.name}: mirrored jig"
-    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, work.config, folder, MIRRORED)
+    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, ring, work.config, folder, MIRRORED)
     work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
     work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, laid)
     if folder is not None:
@@ -262,4 +274,4 @@ def _export(work: _Work, folder: Path) -> None:
             work.findings += findings
             work.report["plate"] = reports.plate_numbers(laser)
         if "guide" in config.outputs:
-            write_guide(folder, work.solution, work.wires, work.jigs, laser, config)
+            write_guide(folder, work.solution, work.wires, work.jigs, laser, work.ring, config)

@@ -11,7 +11,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
 
 
 def write_text(path: Path, text: str) -> None:
@@ -51,13 +51,14 @@ def write_guide(
     wires: Sequence[Wire],
     jigs: JigSet,
     laser: LaserJig | None,
+    ring: JumpRing | None,
     config: Config,
 ) -> None:
     """`guide.html`."""
     from wrapit.instructions.stage import write_instructions
 
     page = write_instructions(
-        solution, wires, config.guide, config.wire, name=config.name, jigset=jigs, laser=laser
+        solution, wires, config.guide, config.wire, name=config.name, jigset=jigs, laser=laser, ring=ring
     )
     write_text(folder / "guide.html", page)
 

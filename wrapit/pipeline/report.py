@@ -20,7 +20,7 @@ from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
 from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.folder import Artifact
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
 from wrapit.wires.springback import Overbent
 
 FORMAT = "wrapit-report/1"
@@ -99,6 +99,22 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "stretch_support": round(stretch_support(support), 4),
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
+    }
+
+
+def bail_numbers(wires: Sequence[Wire], ring: JumpRing | None) -> dict[str, Any]:
+    """The `bail` block: the loop that a wire's end is bent into, or the jump ring; at its middle or place."""
+    if ring is not None:
+        place = [_mm(value) for value in ring.point]
+        inside, length = ring.inner_diameter_mm, ring.length_mm
+        return {"kind": "ring", "at": place, "inner_diameter_mm": inside, "wire_mm": _mm(length)}
+    wire, bail = next((wire, wire.bail) for wire in wires if wire.bail is not None)
+    return {
+        "kind": "loop",
+        "wire": wire.name,
+        "at": [_mm(value) for value in bail.centre],
+        "inner_diameter_mm": bail.inner_diameter_mm,
+        "wire_mm": _mm(bail.end_mm - bail.start_mm),
     }
 
 

@@ -4,31 +4,39 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.jig.model import Jig, JigSet
-from wrapit.wires.model import Wire
+from wrapit.materials import METALS
+from wrapit.wires.model import JumpRing, Wire
 
 if TYPE_CHECKING:
     from wrapit.kernel.files import FilePart
 
+RING_GAP_MM = 0.05  # between a ring and the wire inside it
 PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
 
 
 def make_solids(
-    wires: tuple[Wire, ...], laid: tuple[Wire, ...], config: Config, folder: Path | None, suffix: str = ""
+    wires: tuple[Wire, ...],
+    laid: tuple[Wire, ...],
+    ring: JumpRing | None,
+    config: Config,
+    folder: Path | None,
+    suffix: str = "",
 ) -> tuple[JigSet, tuple[Finding, ...]]:
     """The jigs, built and checked; their files in `folder`, `jig{suffix}.step` and so on.
 
-    `laid` are the wires as they lie in the jig. The result holds no kernel shapes.
+    `laid` are the wires as they lie in the jig; a jump ring is in `wires{suffix}.step`.
+    The result holds no kernel shapes.
     """
     from wrapit.jig.stage import build_jig
 
     jigs, findings = build_jig(laid, config.jig)
     if folder is not None:
-        findings += _write(jigs, wires, config, folder, suffix)
+        findings += _write(jigs, wires, ring, config, folder, suffix)
     bare = tuple(
         dataclasses.replace(jig, part=dataclasses.replace(jig.part, solid=None)) for jig in jigs.jigs
     )
@@ -36,13 +44,13 @@ def make_solids(
 
 
 def _write(
-    jigs: JigSet, wires: tuple[Wire, ...], config: Config, folder: Path, suffix: str
+    jigs: JigSet, wires: tuple[Wire, ...], ring: JumpRing | None, config: Config, folder: Path, suffix: str
 ) -> tuple[Finding, ...]:
     from wrapit.kernel.files import write_3mf, write_step, write_stl
 
     findings: tuple[Finding, ...] = ()
     if "step" in config.outputs:
-        findings = _write_wires(wires, config.name, folder / f"wires{suffix}.step")
+        findings = _write_wires(wires, ring, config, folder / f"wires{suffix}.step")
         write_step(folder / f"jig{suffix}.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
     for jig in jigs.jigs:
         stem = f"{jig.name if len(jigs.jigs) > 1 else 'jig'}{suffix}"
@@ -59,13 +67,18 @@ def _jig_part(jig: Jig) -> FilePart:
     return FilePart(jig.part.name, jig.part.solid, jig.part.colour)
 
 
-def _write_wires(wires: tuple[Wire, ...], name: str, path: Path) -> tuple[Finding, ...]:
+def _write_wires(
+    wires: tuple[Wire, ...], ring: JumpRing | None, config: Config, path: Path
+) -> tuple[Finding, ...]:
     """Solids and centrelines; a finding for each wire whose solid isn't sound and stays out."""
     from wrapit.kernel.files import FilePart, write_step
     from wrapit.kernel.sweeps import round_wire
 
     made = [(w, round_wire(w.centreline, w.diameter_mm, w.lifts, w.name)) for w in wires]
-    write_step(path, name, [FilePart(w.name, m.solid, w.colour, (m.centreline,)) for w, m in made])
+    parts = [FilePart(w.name, m.solid, w.colour, (m.centreline,)) for w, m in made]
+    if ring is not None:
+        parts.append(FilePart("jump-ring", _ring_solid(ring), METALS[config.wire.metal].colour))
+    write_step(path, config.name, parts)
     return tuple(
         Finding(
             "warning",
@@ -77,3 +90,13 @@ def _write_wires(wires: tuple[Wire, ...], name: str, path: Path) -> tuple[Findin
         for w, m in made
         if m.solid is None
     )
+
+
+def _ring_solid(ring: JumpRing) -> Any:
+    """The ring upright round the lowest layer, which lies inside it against its wire."""
+    from wrapit.kernel.sweeps import torus
+
+    radius, (x, y), (u, v) = ring.inner_diameter_mm / 2, ring.point, ring.outward
+    out = radius - ring.diameter_mm / 2 - RING_GAP_MM
+    centre = (x + out * u, y + out * v, 0.0)
+    return torus(centre, (-v, u, 0.0), radius + ring.diameter_mm / 2, ring.diameter_mm / 2, "jump-ring")

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from wrapit.geometry import BSpline
-from wrapit.wires.model import Side, Wire
+from wrapit.wires.model import JumpRing, Side, Wire
 
 _OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left", "both": "both"}
 _FLIP = np.array([-1.0, 1.0])
@@ -23,14 +23,25 @@ def mirrored(wires: Sequence[Wire]) -> tuple[Wire, ...]:
     return tuple(_mirrored(wire) for wire in wires)
 
 
+def mirrored_ring(ring: JumpRing | None) -> JumpRing | None:
+    """The jump ring in the mirror image."""
+    if ring is None:
+        return None
+    return dataclasses.replace(ring, point=_flipped(ring.point), outward=_flipped(ring.outward))
+
+
 def _mirrored(wire: Wire) -> Wire:
     line = wire.centreline
     return dataclasses.replace(
         wire,
         centreline=BSpline(line.degree, line.poles * _FLIP, line.knots),
+        bail=wire.bail and dataclasses.replace(wire.bail, centre=_flipped(wire.bail.centre)),
         turns=tuple(dataclasses.replace(turn, inside=_OTHER_SIDE[turn.inside]) for turn in wire.turns),
         bindings=tuple(
-            dataclasses.replace(binding, point=(-binding.point[0], binding.point[1]))
-            for binding in wire.bindings
+            dataclasses.replace(binding, point=_flipped(binding.point)) for binding in wire.bindings
         ),
     )
+
+
+def _flipped(point: tuple[float, float]) -> tuple[float, float]:
+    return -point[0], point[1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -36,6 +37,31 @@ class Binding:
     point: tuple[float, float]
 
 
+@dataclass(frozen=True)
+class Bail:
+    """A round loop at one end of a wire, with its neck; `start_mm` and `end_mm` are places along the wire."""
+
+    start_mm: float
+    end_mm: float
+    centre: tuple[float, float]
+    inner_diameter_mm: float
+
+
+@dataclass(frozen=True)
+class JumpRing:
+    """A ring round the wire at a point, upright; `outward` is the unit direction in which it hangs out."""
+
+    point: tuple[float, float]
+    outward: tuple[float, float]
+    inner_diameter_mm: float
+    diameter_mm: float
+
+    @property
+    def length_mm(self) -> float:
+        """Wire in the ring."""
+        return math.pi * (self.inner_diameter_mm + self.diameter_mm)
+
+
 @dataclass(frozen=True, eq=False)
 class Wire:
     """One wire; its centreline is one exact cubic B-spline in the plane, in mm.
@@ -60,6 +86,8 @@ class Wire:
     colour: str
     lifts: tuple[tuple[float, float], ...] = ()
     """Height of the centreline over the lowest layer, (at_mm, z_mm) smooth between; empty is flat."""
+
+    bail: Bail | None = None
 
     @property
     def ends(self) -> FloatArray:

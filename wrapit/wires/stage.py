@@ -13,6 +13,7 @@ from wrapit.errors import Finding
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.materials import METALS, min_inner_bend_radius_mm
+from wrapit.wires.bail import with_bail
 from wrapit.wires.bindings import find_bindings
 from wrapit.wires.centreline import FOLD_RAD, Joined, join
 from wrapit.wires.lifts import lay_wires
@@ -28,15 +29,17 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
     """Each trail as one exact cubic B-spline with turns, lengths, connections and heights.
 
     Corners tighter than the metal allows are rounded; findings name bends that can't be made.
+    With a bail, the end of one wire goes on into its loop.
     """
     drawing, wire = solution.decomposition.drawing, config.wire
     radius_mm = min_inner_bend_radius_mm(wire.gauge, wire.temper) + wire.gauge / 2
     joined = [join(_curves(drawing, trail), radius_mm) for trail in solution.trails]
+    joined, bails, said = with_bail(joined, drawing, config)
     names = [f"wire-{number:02d}" for number in range(1, len(joined) + 1)]
     splines = [from_chain(each.chain) for each in joined]
     bindings = find_bindings(drawing, solution.trails, names, [each.spans_mm for each in joined])
     lifts = lay_wires(splines, wire.gauge)
-    findings: list[Finding] = []
+    findings: list[Finding] = [*said]
     wires = []
     for index, (name, trail, each, spline) in enumerate(
         zip(names, solution.trails, joined, splines, strict=True)
@@ -65,6 +68,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
                 closed=trail.closed,
                 colour=wire_colour(index),
                 lifts=lifts[index],
+                bail=bails.get(index),
             )
         )
     return tuple(wires), tuple(findings)
