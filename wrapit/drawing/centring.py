@@ -154,20 +154,28 @@ def edges(
     normals: FloatArray,
     reach: float,
     step: float,
-    through_holes: bool = False,
+    bridged: float = 0.0,
 ) -> tuple[FloatArray, FloatArray]:
     """Distance to the edge of the ink against and along the normal; nan where there is none in reach.
 
-    `through_holes` starts at the first ink where a point lies on paper.
+    Paper narrower than `bridged` counts as ink.
     """
     count = int(np.ceil(reach / step))
     offsets = np.arange(-count, count + 1) * step
     places = points[:, None] + offsets[None, :, None] * normals[:, None]
     levels = sample(ink.grey, places) - ink.half
     sides = [levels[:, count::-1], levels[:, count:]]
-    if through_holes:
-        sides = [np.where(np.logical_or.accumulate(side <= 0, axis=1), side, -1.0) for side in sides]
+    if bridged:
+        sides = [_closed(side, int(bridged / step)) for side in sides]
     return _first_crossing(sides[0], step), _first_crossing(sides[1], step)
+
+
+def _closed(levels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """Levels where runs of paper are filled: those up to `count` long, and any at the start."""
+    from scipy.ndimage import grey_opening
+
+    opened = grey_opening(levels, size=(1, count + 1), mode="nearest")
+    return np.where(np.logical_or.accumulate(opened <= 0, axis=1), opened, -1.0).astype(np.float32)
 
 
 def _first_crossing(levels: NDArray[np.float32], step: float) -> FloatArray:

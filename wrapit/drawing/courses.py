@@ -12,7 +12,6 @@ from wrapit.drawing.shared import excess
 from wrapit.geometry import FloatArray
 
 # In stroke widths.
-_LEAST = 2.5
 _LONGEST = 60.0
 _EXCESS = 0.15
 _OPENING = 3.0
@@ -28,12 +27,14 @@ class Course:
     points: FloatArray
 
 
-def course_of(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Course | None:
+def course_of(
+    net: Network, lines: dict[int, Line], strand: int, width_px: float, least: float
+) -> Course | None:
     """The way along a ribbon from a strand on, if that is broader than one stroke and ends in two forks."""
     s, line = net.strands[strand], lines[strand]
     if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
         return None
-    if not _LEAST * width_px < line.length < _LONGEST * width_px or excess(line, width_px) < _EXCESS:
+    if not least * width_px < line.length < _LONGEST * width_px or excess(line, width_px) < _EXCESS:
         return None
     if _is_opening(net, lines, strand, width_px):
         return None
@@ -49,7 +50,7 @@ def course_of(net: Network, lines: dict[int, Line], strand: int, width_px: float
             ]
             parts = [*(part[::-1] for part in reversed(onwards)), *parts] if side == 0 else [*parts, *onwards]
             ends[side] = end
-    return Course(tuple(strands), tuple(inner), (ends[0], ends[1]), _even(parts, width_px))
+    return Course(tuple(strands), tuple(inner), (ends[0], ends[1]), even(parts, width_px))
 
 
 def _beyond(
@@ -94,7 +95,7 @@ def _at_shares(points: FloatArray, share: FloatArray) -> FloatArray:
     return np.column_stack([np.interp(at, along, points[:, k]) for k in (0, 1)])
 
 
-def _even(parts: list[FloatArray], width_px: float) -> FloatArray:
+def even(parts: list[FloatArray], width_px: float) -> FloatArray:
     """One chain of evenly spaced points, an eighth of the width apart."""
     points = np.concatenate(parts)
     count = max(8, int(lengths(points)[-1] / max(width_px / 8, 1.0)))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.centring import Line, edges, lengths, smoothed
-from wrapit.drawing.courses import Course, course_of
+from wrapit.drawing.courses import Course, course_of, even
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.junctions import Arm, arm
 from wrapit.drawing.network import Network
@@ -35,8 +35,11 @@ _ROUND = 0.25
 # The best choice has to be better than the next by this factor.
 _BETTER = 0.75
 _MOST_WAISTS = 6
-_WIDEST = 1.15
+_WIDEST = 1.6
 _ALONE = 0.6
+_BRIDGED = 0.35
+_BEYOND = 2.0
+_BEYOND_APART = 1.7
 # Where two strokes join, the ribbon is nearly as broad as both.
 _END = 1.5
 _OPEN = 0.5
@@ -62,13 +65,15 @@ class Ribbon:
     misfit: float
 
 
-def find_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> list[Ribbon]:
-    """The ribbons of a network in which two strokes can be told apart."""
+def find_ribbons(
+    net: Network, lines: dict[int, Line], ink: Ink, width_px: float, least: float
+) -> list[Ribbon]:
+    """Ribbons longer than `least` stroke widths in which two strokes can be told apart."""
     found, seen = [], set[int]()
     for strand in list(net.strands):
         if strand in seen:
             continue
-        course = course_of(net, lines, strand, width_px)
+        course = course_of(net, lines, strand, width_px, least)
         if course is None:
             continue
         seen |= set(course.strands)
@@ -88,30 +93,64 @@ def _explained(
     # Seen from the other end, left is right.
     tails = tails[1], tails[0]
     usual = _usual_width(lines, [*heads, *tails], width_px)
-    step = lengths(course.points)[-1] / (len(course.points) - 1)
-    axis = smoothed(course.points, _AXIS * width_px / step, False)
-    tangent = unit(np.gradient(axis, axis=0))
-    normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
-    right, left = edges(ink, axis, normal, _REACH * width_px, width_px / 14, through_holes=True)
-    known = np.isfinite(left) & np.isfinite(right)
-    if known.mean() < 0.8:
+    before, after = (_between(pair_, usual) for pair_ in (heads, tails))
+    axis = even([before[::-1], course.points, after], usual)
+    along = lengths(axis)
+    step = along[-1] / (len(axis) - 1)
+    core = slice(
+        int(lengths(np.vstack([before[::-1], course.points[:1]]))[-1] / step),
+        len(axis) - int(lengths(np.vstack([course.points[-1:], after]))[-1] / step),
+    )
+    sides = _measured(axis, ink, usual, step)
+    if sides is None:
         return None
-    index = np.arange(len(axis))
-    left, right = (np.interp(index, index[known], side[known]) for side in (left, right))
-    sigma = _SLOPE * width_px / step
-    left, right = (side - usual / 2 * _secant(side, step, sigma) for side in (left, right))
-    found = _swaps(np.maximum(left + right, 0.0) / width_px, known, step / width_px)
+    left, right, known, gap = sides
+    found = _swaps(gap / usual, known, step / usual)
     if found is None:
         return None
-    swaps, misfit = found
-    clean = known.copy()
+    swaps = [int(np.clip(at, core.start + 1, core.stop - 2)) - core.start for at in found[0]]
+    if len(set(swaps)) < len(found[0]):
+        return None
+    clean = known[core].copy()
     for swap in swaps:
-        clean &= np.abs(index - swap) * step > _ROUND * width_px
+        clean &= np.abs(np.arange(len(clean)) - swap) * step > _ROUND * usual
     return Ribbon(
         course.strands, course.inner, course.ends, heads, tails,
-        axis + left[:, None] * normal, axis - right[:, None] * normal,
-        tuple(swaps), clean, misfit,
+        left[core], right[core],
+        tuple(swaps), clean, found[1],
     )  # fmt: skip
+
+
+def _measured(
+    axis: FloatArray, ink: Ink, width_px: float, step: float
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], FloatArray] | None:
+    """Centres of the left and the right stroke beside the axis, where they are known, and their distance."""
+    index = np.arange(len(axis))
+    # The first pass only finds the middle.
+    for _ in range(2):
+        axis = smoothed(axis, _AXIS * width_px / step, False)
+        tangent = unit(np.gradient(axis, axis=0))
+        normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
+        right, left = edges(ink, axis, normal, _REACH * width_px, width_px / 14, bridged=_BRIDGED * width_px)
+        known = np.isfinite(left) & np.isfinite(right)
+        if known.mean() < 0.8:
+            return None
+        left, right = (np.interp(index, index[known], side[known]) for side in (left, right))
+        middle = axis
+        axis = axis + (left - right)[:, None] / 2 * normal
+    sigma = _SLOPE * width_px / step
+    left, right = (side - width_px / 2 * _secant(side, step, sigma) for side in (left, right))
+    gap = np.maximum(left + right, 0.0)
+    return middle + left[:, None] * normal, middle - right[:, None] * normal, known, gap
+
+
+def _between(arms: tuple[Arm, Arm], width_px: float) -> FloatArray:
+    """The way on between two arms beyond their fork, as far as both still touch it."""
+    first, second = (each.near(_BEYOND * width_px)[1] for each in arms)
+    count = min(len(first), len(second))
+    near = np.linalg.norm(first[:count] - second[:count], axis=1) < _BEYOND_APART * width_px
+    count = count if near.all() else int(np.argmin(near))
+    return (first[:count] + second[:count]) / 2
 
 
 def _sides(

@@ -1,4 +1,4 @@
-"""Explains stretches of ink that two strokes share: do they cross in it, once or twice, or only touch?
+"""Explains short stretches of ink between two forks: do two strokes cross there?
 
 Each way to pair the arms at both ends gives two smooth curves through the stretch. They are drawn again,
 and the pairing is kept whose width along the stretch agrees with the ink's.
@@ -7,7 +7,6 @@ and the pairing is kept whose width along the stretch agrees with the ink's.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -16,48 +15,28 @@ from wrapit.drawing.junctions import Arm, Through, arm, through, turn
 from wrapit.drawing.network import Network
 from wrapit.geometry import FloatArray, unit
 
-Kind = Literal["cross", "braid", "touch"]
-
-# In stroke widths.
-_LONGEST = 30.0
-_SHORT = 2.5
+# In stroke widths. Longer stretches are ribbons, whose edges tell more.
+_LONGEST = 2.5
+_SEEN = 0.8
 _MISFIT = 0.28
 _BETTER = 0.6
-_EXCESS = 0.15
-_TOUCH = 0.4
-_BRAID = 1.5
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
-_TURN_BRAID_RAD = np.radians(110)
-_MISFIT_BRAID = 0.3
-_BETTER_BRAID = 0.68
-
-
-@dataclass(frozen=True, eq=False)
-class Meeting:
-    """A crossing of two curves: their lengths there (zero midway between the arms), and the place."""
-
-    along: tuple[float, float]
-    at: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """Two strokes through a shared stretch: each a pair of arms (one at either end) and its curve."""
+    """Two strokes that cross in a shared stretch: each a pair of arms, one at either end."""
 
-    kind: Kind
     strand: int
     cost: float
     pairs: list[tuple[Arm, Arm]]
-    curves: list[Through]
-    meetings: list[Meeting]
+    at: FloatArray
 
 
 def worth_explaining(line: Line, width_px: float) -> bool:
-    """Whether a stretch is short, or wider than one stroke."""
-    if line.length > _LONGEST * width_px:
-        return False
-    return line.length <= _SHORT * width_px or excess(line, width_px) >= _EXCESS
+    """Whether a stretch is short."""
+    return line.length <= _LONGEST * width_px
 
 
 def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
@@ -67,53 +46,30 @@ def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) 
     tails = _others(net, lines, s.end, strand, width_px)
     if len(heads) != 2 or len(tails) != 2:
         return None
+    seen = line.length > _SEEN * width_px
     best = None
     for order in ((0, 1), (1, 0)):
         pairs = [(heads[0], tails[order[0]]), (heads[1], tails[order[1]])]
-        if any(a.strand == b.strand and a.end == b.end for a, b in pairs):
-            continue
         turns = [turn(a, b) for a, b in pairs]
-        if max(turns) > (_TURN_BRAID_RAD if line.length > _SHORT * width_px else _TURN_SEEN_RAD):
+        if max(turns) > _TURN_SEEN_RAD:
             continue
         curves = [through(a, b) for a, b in pairs]
         crossed, together = _misfits(line, _apart(curves, line), width_px)
-        cost = sum(value**2 for value in turns)
-        if line.length > _SHORT * width_px:
-            # Along a long stretch the ink's width says more than the bends.
-            cost = cost / 10 + (2 * crossed) ** 2
-        elif line.length > 0.8 * width_px:
-            cost += crossed**2
+        cost = sum(value**2 for value in turns) + (crossed**2 if seen else 0.0)
         if best is None or cost < best[0]:
             best = (cost, turns, curves, pairs, crossed, together)
     if best is None:
         return None
     cost, turns, curves, pairs, crossed, together = best
-    fits = crossed < _MISFIT and crossed < _BETTER * together
-    long = line.length > _SHORT * width_px
-    seen = line.length > 0.8 * width_px and fits
-    kind, meetings = _kind(curves, width_px, long)
-    if kind == "braid":
-        # One of the two strokes bulges, so it bends a lot; only the ink's width can tell.
-        fits = crossed < _MISFIT_BRAID and crossed < _BETTER_BRAID * together and min(turns) < _TURN_RAD
-    else:
-        fits = max(turns) < (_TURN_SEEN_RAD if seen else _TURN_RAD) and (seen or not long)
-    return Explanation(kind, strand, cost, pairs, curves, meetings) if kind is not None and fits else None
+    seen = seen and crossed < _MISFIT and crossed < _BETTER * together
+    meetings = _meetings(curves[0], curves[1], width_px)
+    if len(meetings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
+        return None
+    return Explanation(strand, cost, pairs, meetings[0])
 
 
-def _kind(curves: list[Through], width_px: float, long: bool) -> tuple[Kind | None, list[Meeting]]:
-    meetings, gap = _meetings(curves[0], curves[1], width_px)
-    if len(meetings) == 1:
-        return "cross", meetings
-    if not meetings and gap > _TOUCH * width_px:
-        return "touch", meetings
-    if len(meetings) == 2 and long:
-        apart = float(np.linalg.norm(meetings[0].at - meetings[1].at))
-        return ("braid" if apart > _BRAID * width_px else None), meetings
-    return None, meetings
-
-
-def _meetings(a: Through, b: Through, width_px: float) -> tuple[list[Meeting], float]:
-    """Where two curves cross between their arms, in walking order, and how near they come."""
+def _meetings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
+    """Where two curves cross between their arms."""
     along = [np.linspace(-0.5, 0.5, 61) * (curve.gap + width_px) for curve in (a, b)]
     first, second = (
         s[:, None] ** np.arange(len(curve.coefficients)) @ curve.coefficients
@@ -125,12 +81,7 @@ def _meetings(a: Through, b: Through, width_px: float) -> tuple[list[Meeting], f
     safe = np.where(np.abs(det) < 1e-12, np.inf, det)
     s = (between[..., 0] * e[..., 1] - between[..., 1] * e[..., 0]) / safe
     t = (between[..., 0] * d[..., 1] - between[..., 1] * d[..., 0]) / safe
-    found = []
-    for i, j in np.argwhere((s >= 0) & (s < 1) & (t >= 0) & (t < 1)):
-        steps = (along[0][1] - along[0][0], along[1][1] - along[1][0])
-        places = (along[0][i] + s[i, j] * steps[0], along[1][j] + t[i, j] * steps[1])
-        found.append(Meeting((float(places[0]), float(places[1])), first[i] + s[i, j] * d[i, 0]))
-    return found, float(np.linalg.norm(first[:, None] - second[None], axis=2).min())
+    return [first[i] + s[i, j] * d[i, 0] for i, j in np.argwhere((s >= 0) & (s < 1) & (t >= 0) & (t < 1))]
 
 
 def excess(line: Line, width_px: float) -> float:

@@ -16,23 +16,42 @@ from wrapit.drawing.ribbons import Ribbon, find_ribbons
 from wrapit.geometry import FloatArray
 
 _ROUNDS = 3
+# In stroke widths: shorter ribbons are better told by how their strokes bend.
+_LONG = 2.5
+_SHORT = 1.2
+_WELL_APART = 0.6
 
 
 def unzip_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
-    """Puts the two strokes of each ribbon in its place, until there is none left that can be explained."""
+    """Puts the two strokes of each long ribbon in its place, until none is left that can be explained."""
     for _ in range(_ROUNDS):
-        taken: set[int] = set()
-        for ribbon in sorted(find_ribbons(net, lines, ink, width_px), key=lambda r: (r.misfit, r.strands)):
-            touched = {*(arm.strand for arm in (*ribbon.heads, *ribbon.tails)), *ribbon.strands}
-            if touched & taken:
-                continue
-            taken |= touched
-            if ribbon.swaps:
-                _cross(net, lines, ribbon, width_px)
-            else:
-                _part(net, lines, ribbon, width_px)
-        if not taken:
+        if not _unzip(net, lines, find_ribbons(net, lines, ink, width_px, _LONG), width_px):
             return
+
+
+def unzip_short_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
+    """Does the same with short ribbons that are left; only strokes well apart are parted there."""
+    ribbons = find_ribbons(net, lines, ink, width_px, _SHORT)
+    sure = [r for r in ribbons if r.swaps or _narrowest(r) > _WELL_APART * width_px]
+    _unzip(net, lines, sure, width_px)
+
+
+def _narrowest(ribbon: Ribbon) -> float:
+    return float(np.linalg.norm(ribbon.left - ribbon.right, axis=1).min())
+
+
+def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon], width_px: float) -> bool:
+    taken: set[int] = set()
+    for ribbon in sorted(ribbons, key=lambda r: (r.misfit, r.strands)):
+        touched = {*(arm.strand for arm in (*ribbon.heads, *ribbon.tails)), *ribbon.strands}
+        if touched & taken:
+            continue
+        taken |= touched
+        if ribbon.swaps:
+            _cross(net, lines, ribbon, width_px)
+        else:
+            _part(net, lines, ribbon, width_px)
+    return bool(taken)
 
 
 def _cross(net: Network, lines: dict[int, Line], ribbon: Ribbon, width_px: float) -> None:
