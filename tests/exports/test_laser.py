@@ -15,6 +15,7 @@ import shapely
 from shapely import LinearRing, LineString, Polygon
 
 from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
+from tests.jig.metal import line, wires_of
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.exports.plate_files import GAP_MM, sheet_name, write_plate_files
@@ -242,6 +243,12 @@ def test_wires_of_their_own_get_stacks_of_their_own() -> None:
     laser, _ = laser_of(wires, PlateConfig(), split=True)
     assert [part.label for part in laser.parts if part.role == "bottom"] == ["1.B", "2.B"]
     assert {part.jig for part in laser.parts} == {"jig-wire-01", "jig-wire-02"}
+
+
+def test_a_wire_without_turns_gets_plates_without_walls() -> None:
+    laser, findings = laser_of(wires_of([line((0, 0), (12, 0))]), PlateConfig())
+    assert {part.role for part in laser.parts} == {"bottom", "pocket plate"}
+    assert not [finding for finding in findings if finding.level == "error"]
 
 
 def test_a_kerf_that_swallows_walls_is_a_finding_not_a_broken_contour() -> None:

@@ -118,6 +118,8 @@ def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
     import shapely
 
     kept = list(polygons)
+    if not kept:
+        return kept
     pairs = shapely.STRtree(kept).query(kept, predicate="dwithin", distance=least_mm).T
     for first, second in sorted((int(a), int(b)) for a, b in pairs if a < b):
         small, large = sorted((first, second), key=lambda index: (kept[index].area, index))
