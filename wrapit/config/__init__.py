@@ -2,7 +2,7 @@
 
 from wrapit.config.bail import BailConfig
 from wrapit.config.decomposition import DecompositionConfig, WeightsConfig
-from wrapit.config.jig import JigConfig
+from wrapit.config.jig import JigConfig, SeatConfig
 from wrapit.config.loading import load_config
 from wrapit.config.locking import lock_text, schema
 from wrapit.config.plate import PlateConfig
@@ -16,6 +16,7 @@ __all__ = [
     "GuideConfig",
     "JigConfig",
     "PlateConfig",
+    "SeatConfig",
     "TracingConfig",
     "WeightsConfig",
     "WireConfig",

@@ -8,7 +8,26 @@ from typing import Literal
 from pydantic import Field
 
 from wrapit.config.block import Block
-from wrapit.config.quantities import Angle, Curvature, Length, PositiveLength
+from wrapit.config.quantities import Angle, Curvature, Length, Point, PositiveLength
+
+
+class SeatConfig(Block):
+    """A round pocket in the printed jig that holds a bead or a stone while wire is laid round it."""
+
+    at: Point
+    """Its middle, such as `[12 mm, 30 mm]`: a point of the drawing, as in `drawing.json` (y up)."""
+
+    diameter: PositiveLength
+    """Of the bead or stone; the pocket is wider by the clearance on each side.
+
+    Wires pass its middle at half the pocket and half their own thickness or more.
+    """
+
+    depth: PositiveLength = 1.5
+    """How deep it sits in the plate."""
+
+    post: Length = 0.0
+    """Diameter of a post in its middle, a little thinner than the hole of a drilled bead; 0 mm for none."""
 
 
 class JigConfig(Block):
@@ -79,6 +98,9 @@ class JigConfig(Block):
 
     pins: bool = True
     """Holes for pins inside turns that are too tight for a wall."""
+
+    seats: tuple[SeatConfig, ...] = ()
+    """Seats for beads or stones, `[{at: [12 mm, 30 mm], diameter: 6 mm}]`; the laser-cut jig has none."""
 
     numbers: bool = True
     """Engrave each wire's number beside the hole where it starts."""

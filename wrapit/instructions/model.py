@@ -78,3 +78,5 @@ class Guide:
     assembly: tuple[Placement, ...]
     binding_turns: int
     ring: JumpRing | None = None
+    seats: tuple[str, ...] = ()
+    """Each bead's size, where the jig holds beads or stones."""

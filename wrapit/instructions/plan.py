@@ -61,7 +61,13 @@ def plan_guide(
         assembly=assembly_order(wires, ties),
         binding_turns=turns,
         ring=ring,
+        seats=_seats(jigset),
     )
+
+
+def _seats(jigset: JigSet | None) -> tuple[str, ...]:
+    jigs = jigset.jigs if jigset is not None else ()
+    return tuple(millimetres(seat.bead_mm) for jig in jigs for seat in jig.plan.seats)
 
 
 def _bounds_mm(drawing: Drawing, wires: Sequence[Wire]) -> tuple[FloatArray, FloatArray]:

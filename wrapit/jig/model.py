@@ -8,6 +8,7 @@ from typing import Any, Literal
 from shapely import Polygon
 
 from wrapit.geometry import Loop, Region
+from wrapit.geometry.moves import circle
 from wrapit.wires.model import Turn
 
 
@@ -50,6 +51,26 @@ class Pin:
     diameter_mm: float
 
 
+@dataclass(frozen=True)
+class Seat:
+    """A round pocket in the plate for a bead.
+
+    The post in it is `post_mm` thick (0 is none) and rises `post_height_mm` over the plate.
+    """
+
+    centre: tuple[float, float]
+    bead_mm: float
+    diameter_mm: float
+    depth_mm: float
+    post_mm: float
+    post_height_mm: float
+
+    @property
+    def pocket(self) -> Loop:
+        """Outline of the pocket."""
+        return circle(self.centre, self.diameter_mm / 2)
+
+
 @dataclass(frozen=True, eq=False)
 class Label:
     """A wire's number, engraved as flat pockets."""
@@ -71,6 +92,7 @@ class JigPlan:
     pins: tuple[Pin, ...] = ()
     labels: tuple[Label, ...] = ()
     screw_holes: tuple[Loop, ...] = ()
+    seats: tuple[Seat, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -97,7 +119,7 @@ class Part:
 class Jig:
     """One printable body with its proof: what was measured on the exact result.
 
-    `walls` are the exact wall faces after cutting, `plate` the plate's face with its holes.
+    `walls` are the exact wall faces after cutting, `plate` the plate's upper face, less holes and seats.
     """
 
     name: str

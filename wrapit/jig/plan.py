@@ -15,6 +15,7 @@ from wrapit.jig.labels import wire_labels
 from wrapit.jig.model import JigPlan, Label, Plate, Wall
 from wrapit.jig.pins import pin_holes, pin_obstacles
 from wrapit.jig.plates import plate_outline
+from wrapit.jig.seats import check_holes, seat_obstacles, seats_of
 from wrapit.wires.model import Wire
 
 LABEL_GAP_MM = 0.3
@@ -25,17 +26,22 @@ def plan_jig(
 ) -> tuple[JigPlan, tuple[Finding, ...]]:
     """The plan of one jig that holds all these wires.
 
-    Raises JigError where the plate doesn't fit the bed, ValueError without wires or for wires of
-    different diameters.
+    Raises JigError where the plate doesn't fit the bed or a seat is in a start hole's way, ValueError
+    without wires or for wires of different diameters.
     """
     import shapely
 
     course = Course.of(wires, config)
     holes = start_holes(course, config)
     rims = hole_rims(holes)
-    blocked = hole_obstacles(holes)
+    seats = seats_of(config)
+    check_holes(seats, rims)
+    pockets = seat_obstacles(seats)
+    blocked = hole_obstacles(holes).union(pockets)
     polygons, dropped = wall_polygons(course, config, blocked)
-    pins = pin_holes(course, config, rims, shapely.union_all([polygon for polygon, _ in polygons]))
+    pins = pin_holes(
+        course, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
+    )
     if pins:
         blocked = shapely.union_all([blocked, pin_obstacles(pins)])
         polygons, dropped = wall_polygons(course, config, blocked)
@@ -43,7 +49,7 @@ def plan_jig(
     walls = tuple(
         Wall(turns, polygon, height) for (polygon, turns), height in zip(polygons, heights, strict=True)
     )
-    covered = shapely.union_all([course.channels, rims, *(wall.outline for wall in walls)])
+    covered = shapely.union_all([course.channels, rims, pockets, *(wall.outline for wall in walls)])
     outline, screws = plate_outline(covered, config, name)
     plate = Plate(Region(outline), config.base_thickness)
     labels: tuple[Label, ...] = ()
@@ -55,7 +61,7 @@ def plan_jig(
             course, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
-    return JigPlan(name, names, walls, holes, plate, pins, labels, screws), (*dropped, *unlabelled)
+    return JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats), (*dropped, *unlabelled)
 
 
 def _polygon(loop: Any) -> Any:

@@ -10,8 +10,9 @@ import shapely
 
 from wrapit.config import JigConfig
 from wrapit.geometry import Arc, Loop, Region
+from wrapit.geometry.moves import circle
 from wrapit.geometry.polygons import fitted_edges, polygon_of, region_of
-from wrapit.jig.model import JigPlan
+from wrapit.jig.model import JigPlan, Seat
 
 if TYPE_CHECKING:
     from wrapit.kernel.terraces import Terrace, Terraced
@@ -21,7 +22,10 @@ LEAST_CROWN_MM2 = 0.3
 
 
 def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Terraced:
-    """One solid: plate with holes, walls on it, numbers engraved. Raises KernelError naming the jig."""
+    """One solid: plate with holes and seats, walls on it, numbers engraved.
+
+    Raises KernelError naming the jig.
+    """
     from wrapit.kernel.terraces import Terrace, terraced_solid
 
     top = plan.plate.thickness_mm
@@ -31,6 +35,7 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
     ]
     for label in plan.labels:
         terraces += [Terrace(stroke, top - label.depth_mm) for stroke in label.strokes]
+    terraces += [_seat(seat, top) for seat in plan.seats]
     through = [hole.outline for hole in plan.holes]
     through += [Loop((Arc(pin.centre, pin.diameter_mm / 2, 0.0, 2 * math.pi),)) for pin in plan.pins]
     through += plan.screw_holes
@@ -53,6 +58,14 @@ def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float)
             upon = tuple(Terrace(_within(part, foot), crest) for part in crowns)
             return Terrace(region, crest - lead_in_mm, upon)
     return Terrace(region, crest)
+
+
+def _seat(seat: Seat, ground_mm: float) -> Terrace:
+    """A pocket, with its post."""
+    from wrapit.kernel.terraces import Terrace
+
+    post = Terrace(Region(circle(seat.centre, seat.post_mm / 2)), ground_mm + seat.post_height_mm)
+    return Terrace(Region(seat.pocket), ground_mm - seat.depth_mm, (post,) if seat.post_mm else ())
 
 
 def _within(crown: shapely.Polygon, foot: shapely.Polygon) -> Region:

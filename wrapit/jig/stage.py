@@ -12,6 +12,7 @@ from wrapit.jig.faces import CLEARANCE_TOLERANCE_MM, plain_finding, wall_face
 from wrapit.jig.model import Jig, JigSet, Part
 from wrapit.jig.plan import plan_jig
 from wrapit.jig.proof import split_finding, support_findings
+from wrapit.jig.seats import check_seats, seats_near
 from wrapit.jig.solids import jig_solid
 from wrapit.jig.split import grouped
 from wrapit.jig.support import support_by_wire, turn_support
@@ -27,24 +28,20 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     Overbent wires (`springback: compensate`) get a jig each: they don't meet as drawn.
     Raises JigError where no jig can be made or one fails its check, KernelError where the kernel fails.
     """
-    if not wires:
-        raise JigError("there are no wires to make a jig for")
-    overbent = config.springback == "compensate"
-    if overbent and config.split == "single" and len(wires) > 1:
-        raise JigError(
-            "overbent wires don't meet where they are drawn, so they can't share a jig",
-            "jig.springback",
-            "set jig.split to auto or per-wire, or jig.springback to report",
-        )
+    _check_wishes(wires, config)
+
+    def planned(group: tuple[Wire, ...], name: str) -> _Planned:
+        return _Planned(group, seats_near(group, wires, config), name)
+
     if config.split == "single":
-        return _set([_planned(wires, config, "jig")], config, ())
-    if config.split == "per-wire" or overbent:
-        return _set([_planned((wire,), config, f"jig-{wire.name}") for wire in wires], config, ())
-    single = _planned(wires, config, "jig")
+        return _set([planned(wires, "jig")], config, ())
+    if config.split == "per-wire" or config.springback == "compensate":
+        return _set([planned((wire,), f"jig-{wire.name}") for wire in wires], config, ())
+    single = planned(wires, "jig")
     shared = single.by_wire
     if min(shared.values(), default=1.0) >= config.min_turn_support or len(wires) == 1:
         return _set([single], config, ())
-    apart = [_planned((wire,), config, f"jig-{wire.name}") for wire in wires]
+    apart = [planned((wire,), f"jig-{wire.name}") for wire in wires]
     alone = {name: share for each in apart for name, share in each.by_wire.items()}
     groups = grouped(wires, alone, config)
     weak = [name for name, share in shared.items() if share < config.min_turn_support]
@@ -53,13 +50,32 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     parts = [
         next(each for each in apart if each.course.wires == group)
         if len(group) == 1
-        else _planned(group, config, _name(group))
+        else planned(group, _name(group))
         for group in groups
     ]
     apart_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
     if all(apart_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
         return _set([single], config, ())
     return _set(parts, config, (split_finding(shared, len(groups), config.min_turn_support),))
+
+
+def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
+    if not wires:
+        raise JigError("there are no wires to make a jig for")
+    if config.springback == "compensate":
+        if config.split == "single" and len(wires) > 1:
+            raise JigError(
+                "overbent wires don't meet where they are drawn, so they can't share a jig",
+                "jig.springback",
+                "set jig.split to auto or per-wire, or jig.springback to report",
+            )
+        if config.seats:
+            raise JigError(
+                "overbent wires don't pass the seats where they are drawn",
+                "jig.seats",
+                "leave the seats out, or set jig.springback to report",
+            )
+    check_seats(Course.of(wires, config), config)
 
 
 class _Planned:
@@ -72,10 +88,6 @@ class _Planned:
         self.walls = tuple(face.region for face in self.faces)
         self.support = turn_support(self.course, self.walls)
         self.by_wire = support_by_wire(self.support)
-
-
-def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> _Planned:
-    return _Planned(wires, config, name)
 
 
 def _name(group: tuple[Wire, ...]) -> str:
@@ -101,6 +113,7 @@ def _built(part: _Planned, config: JigConfig) -> Jig:
 
     plan = part.plan
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
+    openings += [seat.pocket for seat in plan.seats]
     return Jig(
         name=plan.name,
         wires=plan.wires,

@@ -40,6 +40,13 @@ ONE_PLATE: Final = Finding(
     "the DXF is for one of the pair",
     "mirror it in the laser's program for the other one",
 )
+SEATS_PRINTED: Final = Finding(
+    "note",
+    "seats-in-print-only",
+    "laser-cut jig",
+    "only the printed jig has seats for beads and stones",
+    "hold them by hand in the laser-cut one, or print the jig",
+)
 
 
 @dataclass(frozen=True)
@@ -250,11 +257,13 @@ def _build_jig(work: _Work, worker: Worker, folder: Path | None) -> None:
 
 
 def _build_mirrored_jig(work: _Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
+    from wrapit.jig.seats import mirrored_seats
     from wrapit.wires.mirror import mirrored, mirrored_ring
 
     wires, laid, ring = mirrored(work.wires), mirrored(work.laid), mirrored_ring(work.ring)
-    where = f"{work.config.name}: mirrored jig"
-    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, ring, work.config, folder, MIRRORED)
+    config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
+    where = f"{config.name}: mirrored jig"
+    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, ring, config, folder, MIRRORED)
     work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
     work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, laid)
     if folder is not None:
@@ -272,6 +281,8 @@ def _export(work: _Work, folder: Path) -> None:
         if "dxf" in config.outputs:
             laser, findings = write_plate(folder, work.laid, work.jigs, config)
             work.findings += findings
+            if config.jig.seats:
+                work.findings.append(SEATS_PRINTED)
             work.report["plate"] = reports.plate_numbers(laser)
         if "guide" in config.outputs:
             write_guide(folder, work.solution, work.wires, work.jigs, laser, work.ring, config)

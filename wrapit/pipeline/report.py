@@ -64,7 +64,7 @@ def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
             "name": wire.name,
             "length_mm": _mm(wire.length_mm),
             "cut_length_mm": _mm(wire.cut_length_mm),
-            "turns": len(wire.turns),
+            "turns": sum(turn.inside != "both" for turn in wire.turns),
             "connections": len(wire.bindings),
             "min_bend_radius_mm": _mm(wire.min_bend_radius_mm),
             "max_deviation_from_drawing_mm": _mm(wire.max_deviation_from_drawing_mm),
@@ -84,6 +84,7 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
     }
     weakest = min(by_wire, key=lambda name: (by_wire[name], name))
     distances = [jig.min_wall_to_wire_mm for jig in jigs.jigs if jig.min_wall_to_wire_mm is not None]
+    seats = sum(len(jig.plan.seats) for jig in jigs.jigs)
     return {
         "kind": "printed",
         "split": jigs.split,
@@ -93,6 +94,7 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "volume_mm3": round(sum(jig.volume_mm3 for jig in jigs.jigs), 3),
         "walls": sum(len(jig.walls) for jig in jigs.jigs),
         "holes": sum(len(jig.plan.holes) for jig in jigs.jigs),
+        **({"seats": seats} if seats else {}),
         "turn_support": round(total_support(support), 4),
         "turn_support_by_wire": by_wire,
         "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},

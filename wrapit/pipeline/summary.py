@@ -25,7 +25,10 @@ def summary_lines(result: Build) -> Iterator[str]:
     if "jig" in report:
         jig = report["jig"]
         size = " × ".join(f"{value:.0f}" for value in jig["size_mm"])
-        yield f"jig: {_count(jig['walls'], 'wall')}, {size} mm, {jig['turn_support']:.0%} of turns held"
+        jigs = f"{jig['jigs']} jigs" if jig["jigs"] > 1 else "jig"
+        bends = any(wire["turns"] for wire in report["wires"])
+        held = f", {jig['turn_support']:.0%} of turns held" if bends else ""
+        yield f"{jigs}: {_count(jig['walls'], 'wall')}, {size} mm{held}"
     if result.folder is not None:
         yield f"{'up to date' if result.up_to_date else 'written'}: {result.folder}"
 
