@@ -20,7 +20,7 @@ from wrapit.decomposition.options import Option, useful
 from wrapit.decomposition.problem import Answer, Problem
 
 _WORK = 40  # choices looked at for each segment
-_LEAST_WORK = 4_000
+_LEAST_WORK = 20_000
 
 
 def solved_by_blocks(problem: Problem) -> Answer | None:

@@ -1,6 +1,6 @@
 """All that wires can do at one junction on which blocks hang.
 
-A best-first search over the matchings at the junction. What a partial matching costs at least comes
+Few ends are matched in all ways, more in a best-first search. What a partial matching costs at least comes
 from the best matchings of what is left, with as many wire ends as the wanted kind of option needs.
 """
 
@@ -8,20 +8,21 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
 from wrapit.decomposition.blocks import Doors
 from wrapit.decomposition.local import Matching
-from wrapit.decomposition.model import NO_MATE
-from wrapit.decomposition.modes import Branch, modes_of
-from wrapit.decomposition.options import ENOUGH, Kind, Option, surcharge, useful
-from wrapit.decomposition.passages import Passage, passage
+from wrapit.decomposition.modes import Branch, Mode, modes_of
+from wrapit.decomposition.offers import Offers
+from wrapit.decomposition.options import ENOUGH, Kind, Option, useful
+from wrapit.decomposition.passages import passage, passages
 
+_ROUNDING = 1e-12
+_LISTED_ENDS = 6
 _MOST_ENDS = 18  # the tables have a column for each subset of them
 
 
@@ -41,6 +42,46 @@ class Work:
         self.done += amount
         if self.done > self.most:
             raise OutOfWorkError
+
+
+def options_at(
+    doors: Doors,
+    branches: Sequence[Branch],
+    pair: Sequence[Mapping[int, float]],
+    weak_cost: float,
+    work: Work,
+) -> list[Option]:
+    """What wires can do at a junction with all that hangs on it, cheapest first.
+
+    `doors` are its half-edges of the block that it hangs on itself: two, one or, where the tree of
+    blocks begins, none; then there is just one option. `pair[a][b]` is the cost of the transition
+    a–b. Raises OutOfWorkError.
+    """
+    if not branches:
+        apart = Option(0.0, False, 0)
+        if len(doors) == 1 or doors[1] not in pair[doors[0]]:
+            return [apart]
+        a, b = doors
+        return useful((apart, Option(pair[a][b], True, 0, ((a, b),))), weak_cost)
+    ends = (*doors, *(h for branch in branches for h in branch.doors))
+    if len(ends) > _MOST_ENDS:
+        raise OutOfWorkError
+    place = {h: i for i, h in enumerate(ends)}
+    below = [{place[b]: cost for b, cost in pair[a].items() if place[b] < i} for i, a in enumerate(ends)]
+    sizes = tuple(len(branch.doors) for branch in branches)
+    offers = Offers(ends, len(doors), weak_cost)
+    modes = modes_of(branches, weak_cost)
+    if len(ends) <= _LISTED_ENDS:
+        for mode in sorted(modes, key=lambda mode: mode.cost):
+            for wires, matchings in passages(len(doors), sizes, mode.through):
+                work.spend(1)
+                cost, pairs = min(
+                    [(sum([below[j].get(i, math.inf) for i, j in pairs]), pairs) for pairs in matchings]
+                )
+                offers.take(mode, wires, mode.cost + cost, pairs)
+    else:
+        _Search(len(doors), sizes, modes, below, weak_cost).run(offers, work)
+    return offers.useful()
 
 
 class Pattern(NamedTuple):
@@ -65,28 +106,6 @@ _PATTERNS = {
 }
 
 
-def options_at(
-    doors: Doors,
-    branches: Sequence[Branch],
-    pair: Sequence[Mapping[int, float]],
-    weak_cost: float,
-    work: Work,
-) -> list[Option]:
-    """What wires can do at a junction with all that hangs on it, cheapest first.
-
-    `doors` are its half-edges of the block that it hangs on itself: two, one or, where the tree of
-    blocks begins, none; then there is just one option. `pair[a][b]` is the cost of the transition
-    a–b. Raises OutOfWorkError.
-    """
-    if not branches:
-        apart = Option(0.0, False, 0)
-        if len(doors) == 1 or doors[1] not in pair[doors[0]]:
-            return [apart]
-        a, b = doors
-        return useful((apart, Option(pair[a][b], True, 0, ((a, b),))), weak_cost)
-    return _Search(doors, branches, pair, weak_cost).run(work)
-
-
 class _State(NamedTuple):
     """A matching of the ends that aren't `left`, a set of bits; so many of them `loose`."""
 
@@ -108,75 +127,66 @@ class _Wanted(NamedTuple):
 
 
 class _Search:
-    def __init__(
-        self, doors: Doors, branches: Sequence[Branch], pair: Sequence[Mapping[int, float]], weak_cost: float
-    ) -> None:
-        self._ends = (*doors, *(h for branch in branches for h in branch.doors))
-        if len(self._ends) > _MOST_ENDS:
-            raise OutOfWorkError
-        place = {h: i for i, h in enumerate(self._ends)}
-        self._pair = [
-            {place[b]: cost for b, cost in pair[a].items() if place[b] < i} for i, a in enumerate(self._ends)
-        ]
-        self._tables = _tables(self._pair, weak_cost)
-        self._weak_cost = weak_cost
-        self._doors = len(doors)
-        self._sizes = tuple(len(branch.doors) for branch in branches)
-        self._twins = {
-            place[branch.doors[1]]: (place[branch.doors[0]], index)
-            for index, branch in enumerate(branches)
-            if len(branch.doors) == 2
-        }
-        self._modes = modes_of(branches, weak_cost)
-        self._wanted = [list[_Wanted]() for _ in self._modes]
-        self._fresh = [False] * len(self._modes)
-        self._passed: set[tuple[int, bool]] = set()
-        self._found: dict[Kind, Option] = {}
-        kinds = product((False, True), range(ENOUGH + 1)) if doors else [(False, ENOUGH)]
-        self._limits: dict[Kind, float] = dict.fromkeys(kinds, math.inf)
+    """Best first; what is found makes other kinds of options needless, and so the search shorter."""
 
-    def run(self, work: Work) -> list[Option]:
-        """The options that are of use, cheapest first. Raises OutOfWorkError."""
-        heap: list[tuple[float, int, _State]] = []
-        count = 0
-        states = [
-            _State(k, (1 << len(self._ends)) - 1, mode.cost, 0, ()) for k, mode in enumerate(self._modes)
+    def __init__(
+        self,
+        doors: int,
+        sizes: tuple[int, ...],
+        modes: Sequence[Mode],
+        below: Sequence[Mapping[int, float]],
+        weak_cost: float,
+    ) -> None:
+        self._doors, self._sizes, self._modes, self._below = doors, sizes, modes, below
+        self._weak_cost = weak_cost
+        self._tables = _tables(below, weak_cost)
+        seconds = {
+            doors + sum(sizes[: branch + 1]) - 1: branch for branch, size in enumerate(sizes) if size == 2
+        }
+        self._loops = [
+            {i for i, branch in seconds.items() if mode.through[branch]} for mode in modes
+        ]  # ends that would close a ring with the end before them
+        self._passed: set[tuple[int, bool]] = set()
+
+    def run(self, offers: Offers, work: Work) -> None:
+        """Takes what is worth it. Raises OutOfWorkError."""
+        everything = (1 << len(self._below)) - 1
+        states: Iterable[_State] = [
+            _State(number, everything, mode.cost, 0, ()) for number, mode in enumerate(self._modes)
         ]
+        heap: list[tuple[float, int, int, _State]] = []  # of equal bounds, what is nearest to its end
+        count = 0
+        self._renew(offers)
         while True:
             for state in states:
                 if (bound := self._at_least(state)) < math.inf:
                     count += 1
-                    heapq.heappush(heap, (bound, count, state))
+                    heapq.heappush(heap, (bound - bound % _ROUNDING, state.left, count, state))
             if not heap:
-                return useful(self._found.values(), self._weak_cost)
-            bound, _, state = heapq.heappop(heap)
-            if self._at_least(state) > bound:
-                states = [state]  # options found since then have made some kinds needless
+                return
+            bound, _, _, state = heapq.heappop(heap)
+            if self._at_least(state) > bound + _ROUNDING:
+                states = [state]  # what was found since then has made some kinds needless
                 continue
             work.spend(1)
-            states = list(self._extended(state))
+            states = self._extended(state) if state.left else ()
             if not state.left:
-                self._look(state)
+                self._look(state, offers)
 
     def _extended(self, state: _State) -> Iterator[_State]:
         """What may become of the last end that is left."""
-        if not state.left:
-            return
         mode, left, cost, loose, pairs = state
         i = left.bit_length() - 1
         rest = left ^ (1 << i)
         yield _State(mode, rest, cost, loose + 1, pairs)
-        twin, branch = self._twins.get(i, (-1, -1))
-        for j, more in self._pair[i].items():
-            if rest >> j & 1 and not (j == twin and self._modes[mode].through[branch]):
+        closing = i - 1 if i in self._loops[mode] else -1
+        for j, more in self._below[i].items():
+            if rest >> j & 1 and j != closing:
                 yield _State(mode, rest ^ (1 << j), cost + more, loose, (*pairs, (j, i)))
 
     def _at_least(self, state: _State) -> float:
         """A lower bound on the cost of what is wanted still; infinite where nothing is."""
         number, left, cost, loose, _ = state
-        if not self._fresh[number]:
-            self._wanted[number] = list(self._still_wanted(number))
-            self._fresh[number] = True
         least = math.inf
         for alone, ends, weak, worth in self._wanted[number]:
             missing = ends - loose
@@ -190,8 +200,11 @@ class _Search:
                 least = bound
         return least
 
-    def _still_wanted(self, number: int) -> Iterator[_Wanted]:
-        mode, limits = self._modes[number], self._limits
+    def _renew(self, offers: Offers) -> None:
+        self._wanted = [list(self._still_wanted(number, offers.limits)) for number in range(len(self._modes))]
+
+    def _still_wanted(self, number: int, limits: Mapping[Kind, float]) -> Iterator[_Wanted]:
+        mode = self._modes[number]
         for through, alone, ends, owners in _PATTERNS[self._doors]:
             if not self._doors:
                 worth = limits[False, ENOUGH]
@@ -203,63 +216,19 @@ class _Search:
                     worth = max(worth, limits[through, ENOUGH] - mode.enough)
             if not (alone and (number, through) in self._passed):
                 closed = (mode.ends + self._doors) / 2 - owners
-                yield _Wanted(alone, ends - mode.ends, self._weak_cost * closed - mode.spared, worth)
+                yield _Wanted(
+                    alone, ends - mode.ends, self._weak_cost * closed - mode.spared, worth - _ROUNDING
+                )
 
-    def _look(self, state: _State) -> None:
-        """Finds out what a matching gives, and takes it where it is cheaper than what is known."""
-        mates = [NO_MATE] * len(self._ends)
-        for i, j in state.pairs:
-            mates[i], mates[j] = j, i
+    def _look(self, state: _State, offers: Offers) -> None:
         mode = self._modes[state.mode]
-        wires = passage(self._doors, self._sizes, mode.through, tuple(mates))
-        if wires is None:
-            return
-        if wires.alone:
-            # From here on contacts depend on the branches alone: dearer matchings are of no use.
-            self._passed.add((state.mode, wires.through))
-            self._fresh = [False] * len(self._modes)
-            for n, (total, parts) in mode.totals().items():
-                cost = state.cost - mode.cost + total
-                if self._doors:
-                    self._offer((wires.through, n), cost, state, parts)
-                else:
-                    # One wire for everything but what it touches at one junction is weak.
-                    self._offer((False, ENOUGH), cost + self._weak_cost * (n == 1), state, parts)
-        else:
-            self._look_beside_others(state, wires)
-
-    def _look_beside_others(self, state: _State, wires: Passage) -> None:
-        mode, cost = self._modes[state.mode], state.cost
-        parts = list(mode.least)
-
-        def touch(branches: Sequence[int]) -> None:
-            branch = min(branches, key=mode.touched.__getitem__)
-            parts[branch] = mode.in_touch(branch)
-
-        for group in wires.closed:
-            if (least := min(mode.touched[branch] for branch in group)) < self._weak_cost:
-                touch(group)
-            cost += min(self._weak_cost, least)
-        if wires.partial or not self._doors:
-            self._offer((wires.through, ENOUGH), cost, state, parts)
-            return
-        alone = {branch: option for branch in wires.whole if (option := mode.out_of_touch(branch))}
-        if len(alone) == len(wires.whole):
-            more = sum(option.cost - mode.least[branch].cost for branch, option in alone.items())
-            chosen = [alone.get(branch, part) for branch, part in enumerate(parts)]
-            self._offer((wires.through, 1), cost + more, state, chosen)
-        least = min((mode.touched[branch] for branch in wires.whole), default=math.inf)
-        if least < math.inf:
-            touch(wires.whole)
-            self._offer((wires.through, ENOUGH), cost + least, state, parts)
-
-    def _offer(self, kind: Kind, cost: float, state: _State, parts: Sequence[Option]) -> None:
-        if cost < self._limits[kind]:
-            pairs = tuple((self._ends[i], self._ends[j]) for i, j in state.pairs)
-            self._found[kind] = Option(cost, *kind, pairs, tuple(parts))
-            self._fresh = [False] * len(self._modes)
-            for other, limit in self._limits.items():
-                self._limits[other] = min(limit, cost + surcharge(kind, other, self._weak_cost))
+        wires = passage(self._doors, self._sizes, mode.through, state.pairs)
+        if wires is not None:
+            offers.take(mode, wires, state.cost, state.pairs)
+            if wires.alone:
+                # What else there is depends on the branches alone: dearer matchings are of no use.
+                self._passed.add((state.mode, wires.through))
+            self._renew(offers)
 
 
 def _tables(pair: Sequence[Mapping[int, float]], weak_cost: float) -> list[list[float]]:

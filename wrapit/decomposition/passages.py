@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import NamedTuple
 
+from wrapit.decomposition.local import Matching, matchings_of
+
 
 class Passage(NamedTuple):
     """The wires at a junction: those that own its doors, and those that are closed in there.
@@ -22,16 +24,14 @@ class Passage(NamedTuple):
 
 
 @lru_cache(maxsize=1 << 14)
-def passage(
-    doors: int, sizes: tuple[int, ...], through: tuple[bool, ...], mates: tuple[int, ...]
-) -> Passage | None:
+def passage(doors: int, sizes: tuple[int, ...], through: tuple[bool, ...], pairs: Matching) -> Passage | None:
     """The wires of a matching; None where it closes a ring.
 
     Positions count the junction's own doors first, then those of each branch, of which there are one
-    or two (`sizes`); `through` says which branches have one wire between their doors. `mates` gives
-    the position that each continues into, or −1. At a junction without doors of its own, a wire that
-    has everything counts as their owner.
+    or two (`sizes`); `through` says which branches have one wire between their doors. At a junction
+    without doors of its own, a wire that has everything counts as their owner.
     """
+    mates = dict(pairs) | {j: i for i, j in pairs}
     owner = [-1] * doors + [branch for branch, size in enumerate(sizes) for _ in range(size)]
     beyond = [-1] * len(owner)  # where a wire comes back that leaves into a branch
     for i, branch in enumerate(owner):
@@ -40,7 +40,7 @@ def passage(
 
     def followed(i: int) -> list[int]:
         way = [i]
-        while (j := mates[way[-1]]) >= 0:
+        while (j := mates.get(way[-1], -1)) >= 0:
             way.append(j)
             if beyond[j] < 0:
                 break
@@ -58,7 +58,7 @@ def passage(
     seen = set(owned)
     closed = []
     for i in range(doors, len(owner)):
-        if i not in seen and (beyond[i] < 0 or mates[i] < 0):
+        if i not in seen and (beyond[i] < 0 or i not in mates):
             way = followed(i) if beyond[i] < 0 else [i, *followed(beyond[i])]
             seen.update(way)
             closed.append(way)
@@ -69,3 +69,16 @@ def passage(
     whole, all_of_each = whole_in(owned)
     groups = (whole_in(way) for way in closed)
     return Passage(passes, not closed, not all_of_each, whole, tuple(group for group, full in groups if full))
+
+
+@lru_cache(maxsize=1 << 10)
+def passages(
+    doors: int, sizes: tuple[int, ...], through: tuple[bool, ...]
+) -> tuple[tuple[Passage, tuple[Matching, ...]], ...]:
+    """All that the wires can do at a junction of few ends, each with the matchings that make it so."""
+    ways: dict[Passage, list[Matching]] = {}
+    for pairs in matchings_of(doors + sum(sizes)):
+        wires = passage(doors, sizes, through, pairs)
+        if wires is not None:
+            ways.setdefault(wires, []).append(pairs)
+    return tuple((wires, tuple(matchings)) for wires, matchings in ways.items())
