@@ -117,7 +117,7 @@ class DecompositionConfig(Block):
     """Whether short straight bridges may be added between junctions that nearly meet."""
 
     refine_dangling: Literal["never", "auto"] = Field(
-        default="never", json_schema_extra={"enum": ["never", "auto", False]}
+        default="never", json_schema_extra={"enum": ["never", "auto", False, True]}
     )
     """`auto`: a wire that hangs on one junction is taken in by its neighbour and doubled back."""
 
@@ -130,5 +130,5 @@ class DecompositionConfig(Block):
     @field_validator("refine_dangling", mode="before")
     @classmethod
     def _read_switch(cls, value: object) -> object:
-        """People also write `false` for `never`."""
-        return "never" if value is False else value
+        """People also write `false` for `never`, `true` for `auto`."""
+        return {False: "never", True: "auto"}[value] if isinstance(value, bool) else value
