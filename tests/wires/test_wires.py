@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.wires.pieces import circle, drawing_of, solution_of
-from wrapit.config import Config
+from wrapit.config import Config, JigConfig
 from wrapit.decomposition.model import Solution
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength, cut
@@ -79,10 +79,13 @@ def test_cut_keeps_length_and_ends(chain: BezierChain, share: float) -> None:
     assert np.array_equal(before.end, after.start)
 
 
-def test_right_angle_becomes_an_arc_of_the_tightest_allowed_radius() -> None:
+@pytest.mark.parametrize("post_bends", [False, True])
+def test_right_angle_becomes_an_arc_of_the_tightest_allowed_radius(post_bends: bool) -> None:
     solution = trail_of((0, 0), (20, 0), (20, 20))
-    (wire,), findings = draw_wires(solution, CONFIG)
-    radius = wire.diameter_mm  # dead soft: inner radius d/2, centreline d
+    jig = JigConfig(post_bends=post_bends, clearance="0.2 mm", min_wall_width="0.8 mm")
+    (wire,), findings = draw_wires(solution, CONFIG.model_copy(update={"jig": jig}))
+    # Dead soft: inner radius d/2, centreline d; a post of 0.8 mm with 0.2 mm of clearance needs more.
+    radius = wire.diameter_mm / 2 + 0.6 if post_bends else wire.diameter_mm
     assert wire.min_bend_radius_mm == pytest.approx(radius, rel=1e-3)
     assert wire.length_mm == pytest.approx(40 - 2 * radius + radius * math.pi / 2, abs=1e-3)
     assert wire.max_deviation_from_drawing_mm == pytest.approx(radius * (math.sqrt(2) - 1), abs=1e-3)

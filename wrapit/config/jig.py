@@ -63,6 +63,9 @@ class JigConfig(Block):
     min_wall_width: PositiveLength = 0.8
     """Thinner walls can't be printed and are dropped."""
 
+    post_bends: bool = True
+    """Round corners of the drawing at least so wide that a post of `min_wall_width` fits inside the bend."""
+
     min_wall_area: float = Field(default=2.0, ge=0)
     """Smaller walls (mm²) can't be printed and are dropped."""
 

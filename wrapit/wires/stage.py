@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wrapit.config import Config
+from wrapit.config import Config, JigConfig
 from wrapit.decomposition.model import Solution, Trail
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
@@ -28,12 +28,13 @@ MIN_MARGIN_SHARE = 0.15  # of the length, for holding and bending
 def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
     """Each trail as one exact cubic B-spline with turns, lengths, connections and heights.
 
-    Corners tighter than the metal allows are rounded; findings name bends that can't be made.
-    With a bail, the end of one wire goes on into its loop.
+    Corners tighter than the metal allows, or than a post of the jig, are rounded; findings name bends that
+    can't be made. With a bail, the end of one wire goes on into its loop.
     """
     drawing, wire = solution.decomposition.drawing, config.wire
     radius_mm = min_inner_bend_radius_mm(wire.gauge, wire.temper) + wire.gauge / 2
-    joined = [join(_curves(drawing, trail), radius_mm) for trail in solution.trails]
+    corner_mm = max(radius_mm, _post_bend_mm(wire.gauge, config.jig))
+    joined = [join(_curves(drawing, trail), corner_mm) for trail in solution.trails]
     joined, bails, said = with_bail(joined, drawing, config)
     names = [f"wire-{number:02d}" for number in range(1, len(joined) + 1)]
     splines = [from_chain(each.chain) for each in joined]
@@ -72,6 +73,11 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
             )
         )
     return tuple(wires), tuple(findings)
+
+
+def _post_bend_mm(diameter_mm: float, jig: JigConfig) -> float:
+    """Radius of the tightest bend with room for a printable post on its inside, 0 if that doesn't count."""
+    return diameter_mm / 2 + jig.clearance + jig.min_wall_width / 2 if jig.post_bends else 0.0
 
 
 def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:
