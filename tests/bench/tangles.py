@@ -38,9 +38,7 @@ def tangles(shallow: bool) -> Iterator[Drawn]:
     """
     rng = np.random.default_rng(20)
     while True:
-        curves = [random_curve(rng, SIZE_PX, int(rng.integers(3, 6))) for _ in range(int(rng.integers(1, 3)))]
-        if min(smallest_radius(curve) for curve in curves) < 1.5 * WIDTH_PX:
-            continue
+        curves = [_round_curve(rng) for _ in range(int(rng.integers(1, 3)))]
         if shallow and not _hardly_turned(crossings([curve[::8] for curve in curves])):
             continue
         found = crossings(curves)
@@ -50,6 +48,13 @@ def tangles(shallow: bool) -> Iterator[Drawn]:
             continue
         if _nearest([crossing.at for crossing in found]) > 3 * WIDTH_PX:
             yield render(curves, WIDTH_PX, (SIZE_PX, SIZE_PX)), found
+
+
+def _round_curve(rng: np.random.Generator) -> Points:
+    while True:
+        curve = random_curve(rng, SIZE_PX, int(rng.integers(3, 6)))
+        if smallest_radius(curve[::4]) > 1.4 * WIDTH_PX and smallest_radius(curve) > 1.5 * WIDTH_PX:
+            return curve
 
 
 def _hardly_turned(rough: list[Crossing]) -> bool:

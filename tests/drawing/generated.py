@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,19 +43,17 @@ def render(curves: list[Points], width_px: float, shape: tuple[int, int]) -> NDA
 
 def random_curve(rng: np.random.Generator, size_px: float, harmonics: int = 4) -> Points:
     """A smooth closed curve of random harmonics that fills a square with a margin, closed exactly."""
-    t = np.linspace(0, 2 * np.pi, 801)
-    k = np.arange(1, harmonics + 1)
-    amplitude = rng.normal(size=(2, 2, harmonics)) / k**0.8
-    curve = np.stack(
-        [
-            amplitude[axis, 0] @ np.cos(np.outer(k, t)) + amplitude[axis, 1] @ np.sin(np.outer(k, t))
-            for axis in (0, 1)
-        ],
-        axis=1,
-    )
+    amplitude = rng.normal(size=(2, 2, harmonics)) / np.arange(1, harmonics + 1) ** 0.8
+    curve = np.einsum("ijk,jkt->ti", amplitude, _waves(harmonics))
     curve[-1] = curve[0]
     low, high = curve.min(axis=0), curve.max(axis=0)
     return (curve - low) / (high - low).max() * 0.86 * size_px + 0.07 * size_px
+
+
+@cache
+def _waves(harmonics: int) -> NDArray[np.float64]:
+    angles = np.outer(np.arange(1, harmonics + 1), np.linspace(0, 2 * np.pi, 801))
+    return np.stack([np.cos(angles), np.sin(angles)])
 
 
 def crossings(curves: list[Points]) -> list[Crossing]:

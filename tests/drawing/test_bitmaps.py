@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
+from scipy.ndimage import gaussian_filter
 
 from tests.drawing.generated import Points, render
 from wrapit.config import TracingConfig
@@ -107,6 +108,35 @@ def test_strokes_whose_ink_hides_a_lens_cross_twice(traced, width, turn):
     lower = lower * [-1, 1] + [2 * CENTRE, 0]
     drawing, _ = traced([turned(upper, turn), turned(lower, turn)], width)
     assert degrees(drawing) == [1, 1, 1, 1, 4, 4]
+
+
+@few
+@given(st.floats(10, 18), st.floats(8, 11), TURNS, st.sampled_from(["clean", "blurred and noisy"]))
+def test_strokes_that_wind_around_each_other_cross_as_often_as_drawn(tmp_path, angle, width, turn, how):
+    # Three crossings, between them hardly any paper; behind the last one both go straight on.
+    slope, half = math.tan(math.radians(angle)), 80.0
+    s = np.linspace(-180, 180, 400)
+    wave = slope * half / math.pi * np.sin(math.pi * s / half)
+    beyond = -slope * np.sign(s) * (np.abs(s) - half)
+    winding = CENTRE + np.column_stack([s, np.where(np.abs(s) < half, wave, beyond)])
+    grey = render([turned(ACROSS, turn), turned(winding, turn)], width, (SIZE_PX, SIZE_PX))
+    if how != "clean":
+        noise = np.random.default_rng(5).normal(scale=12, size=grey.shape)
+        grey = np.clip(gaussian_filter(grey.astype(np.float64), 1.2) + noise, 0, 255).astype(np.uint8)
+    Image.fromarray(grey).save(tmp_path / "drawing.png")
+    drawing, _ = trace(tmp_path / "drawing.png", TracingConfig(), 50.0)
+    assert degrees(drawing) == [1, 1, 1, 1, 4, 4, 4]
+
+
+@few
+@given(st.floats(6, 10), st.floats(4, 14), TURNS)
+def test_a_stretch_that_two_strokes_share_is_one_segment(traced, width, shared, turn):
+    half = shared * width / 2
+    t = np.linspace(0, 1, 40)
+    away = np.column_stack([half + (140 - half) * t, 70 * t * t])
+    curves = [CENTRE + np.vstack([(away * [-1, up])[::-1], away * [1, up]]) for up in (-1, 1)]
+    drawing, _ = traced([turned(curve, turn) for curve in curves], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
 
 
 @few

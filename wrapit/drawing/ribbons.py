@@ -62,6 +62,7 @@ class Ribbon:
     right: FloatArray
     swaps: tuple[int, ...]
     clean: NDArray[np.bool_]
+    width_px: float
     misfit: float
 
 
@@ -117,7 +118,7 @@ def _explained(
     return Ribbon(
         course.strands, course.inner, course.ends, heads, tails,
         left[core], right[core],
-        tuple(swaps), clean, found[1],
+        tuple(swaps), clean, usual, found[1],
     )  # fmt: skip
 
 

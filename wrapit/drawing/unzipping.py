@@ -25,7 +25,7 @@ _WELL_APART = 0.6
 def unzip_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
     """Puts the two strokes of each long ribbon in its place, until none is left that can be explained."""
     for _ in range(_ROUNDS):
-        if not _unzip(net, lines, find_ribbons(net, lines, ink, width_px, _LONG), width_px):
+        if not _unzip(net, lines, find_ribbons(net, lines, ink, width_px, _LONG)):
             return
 
 
@@ -33,14 +33,14 @@ def unzip_short_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px
     """Does the same with short ribbons that are left; only strokes well apart are parted there."""
     ribbons = find_ribbons(net, lines, ink, width_px, _SHORT)
     sure = [r for r in ribbons if r.swaps or _narrowest(r) > _WELL_APART * width_px]
-    _unzip(net, lines, sure, width_px)
+    _unzip(net, lines, sure)
 
 
 def _narrowest(ribbon: Ribbon) -> float:
     return float(np.linalg.norm(ribbon.left - ribbon.right, axis=1).min())
 
 
-def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon], width_px: float) -> bool:
+def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon]) -> bool:
     taken: set[int] = set()
     for ribbon in sorted(ribbons, key=lambda r: (r.misfit, r.strands)):
         touched = {*(arm.strand for arm in (*ribbon.heads, *ribbon.tails)), *ribbon.strands}
@@ -48,26 +48,26 @@ def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon], width_px
             continue
         taken |= touched
         if ribbon.swaps:
-            _cross(net, lines, ribbon, width_px)
+            _cross(net, lines, ribbon)
         else:
-            _part(net, lines, ribbon, width_px)
+            _part(net, lines, ribbon)
     return bool(taken)
 
 
-def _cross(net: Network, lines: dict[int, Line], ribbon: Ribbon, width_px: float) -> None:
+def _cross(net: Network, lines: dict[int, Line], ribbon: Ribbon) -> None:
     """Two strokes that change sides: a crossing at each change, two strands between crossings."""
     _drop(net, lines, ribbon)
     nodes = [net.add_node((ribbon.left[k] + ribbon.right[k]) / 2) for k in ribbon.swaps]
     arriving = [(arm.strand, arm.end) for arm in ribbon.heads]
     first, last = ribbon.swaps[0], ribbon.swaps[-1]
     for arm, side in zip(ribbon.heads, (ribbon.left, ribbon.right), strict=True):
-        _lead(net, lines, arm, nodes[0], side[first::-1], ribbon.clean[first::-1], width_px)
+        _lead(net, lines, arm, nodes[0], side[first::-1], ribbon.clean[first::-1], ribbon.width_px)
     for arm, side in zip(ribbon.tails, (ribbon.left, ribbon.right), strict=True):
-        _lead(net, lines, arm, nodes[-1], side[last:], ribbon.clean[last:], width_px)
+        _lead(net, lines, arm, nodes[-1], side[last:], ribbon.clean[last:], ribbon.width_px)
     for (start, low), (end, high) in itertools.pairwise(zip(nodes, ribbon.swaps, strict=True)):
         span = slice(low, high + 1)
         inner = [
-            _strand(net, lines, start, end, side[span], ribbon.clean[span], width_px)
+            _strand(net, lines, start, end, side[span], ribbon.clean[span], ribbon.width_px)
             for side in (ribbon.left, ribbon.right)
         ]
         net.through[start] = _swapped(arriving, [(strand, 0) for strand in inner])
@@ -76,7 +76,7 @@ def _cross(net: Network, lines: dict[int, Line], ribbon: Ribbon, width_px: float
     net.drop_lonely()
 
 
-def _part(net: Network, lines: dict[int, Line], ribbon: Ribbon, width_px: float) -> None:
+def _part(net: Network, lines: dict[int, Line], ribbon: Ribbon) -> None:
     """Two strokes that only touch: each goes on by itself."""
     _drop(net, lines, ribbon)
     middle = len(ribbon.left) // 2
@@ -90,9 +90,9 @@ def _part(net: Network, lines: dict[int, Line], ribbon: Ribbon, width_px: float)
     ends: list[int] = []
     for head, tail, side in zip(ribbon.heads, ribbon.tails, (ribbon.left, ribbon.right), strict=True):
         start, end = net.add_node(side[0]), net.add_node(side[-1])
-        _strand(net, lines, start, end, side, ribbon.clean, width_px)
-        _lead(net, lines, head, start, side[:1], ribbon.clean[:1], width_px)
-        _lead(net, lines, tail, end, side[-1:], ribbon.clean[-1:], width_px)
+        _strand(net, lines, start, end, side, ribbon.clean, ribbon.width_px)
+        _lead(net, lines, head, start, side[:1], ribbon.clean[:1], ribbon.width_px)
+        _lead(net, lines, tail, end, side[-1:], ribbon.clean[-1:], ribbon.width_px)
         ends += [start, end]
     for node in ends:
         rejoin(net, lines, node)
