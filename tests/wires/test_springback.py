@@ -10,12 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.jig.metal import arcs, circle, line, scribble, wires_of
+from tests.wires.pieces import drawing_of, solution_of
 from wrapit.config import Config, JigConfig
 from wrapit.geometry import BezierChain, BSpline, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.recurving import best_fit, recurved
 from wrapit.materials import METALS
 from wrapit.wires.springback import Overbent, overbend, overbend_wires
+from wrapit.wires.stage import draw_wires
 
 # Half-hard copper of 1 mm: 3.395 · 200 MPa / (117 GPa · 1 mm).
 LOSS = 3.395 * 200 / (117e3 * 1.0)
@@ -119,3 +121,18 @@ def test_each_wire_is_told_of() -> None:
     assert [f.where for f in findings] == ["wire-01", "wire-02"]
     assert "5° further" in findings[1].message
     assert over[1].overbend_rad == pytest.approx(math.pi / 2 * 10 * LOSS, rel=1e-4)
+
+
+def test_corners_are_drawn_so_wide_that_the_overbent_one_is_the_tightest_allowed() -> None:
+    drawing = drawing_of([(0, 0), (20, 0), (20, 20)], [(0, 1, None), (1, 2, None)])
+    solution = solution_of(drawing, [[(0, False), (1, False)]])
+    metal = {"gauge": "1.0 mm", "temper": "half hard"}
+    settings = Config.model_validate(
+        {"drawing": "a.svg", "wire": metal, "jig": {"springback": "compensate"}, "name": "a"}
+    )
+    wires, _ = draw_wires(solution, settings)
+    tightest = 1.5  # an inner radius of one diameter
+    assert wires[0].min_bend_radius_mm == pytest.approx(1 / (1 / tightest - LOSS), rel=1e-3)
+    (over,), _ = overbend_wires(wires, settings)
+    u = np.linspace(*over.wire.centreline.domain, 4001)
+    assert 1 / np.abs(over.wire.centreline.curvature(u)).max() == pytest.approx(tightest, rel=5e-3)

@@ -33,7 +33,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
     """
     drawing, wire = solution.decomposition.drawing, config.wire
     radius_mm = min_inner_bend_radius_mm(wire.gauge, wire.temper) + wire.gauge / 2
-    corner_mm = max(radius_mm, _post_bend_mm(wire.gauge, config.jig))
+    corner_mm = _let_go_mm(max(radius_mm, _post_bend_mm(wire.gauge, config.jig)), config)
     joined = [join(_curves(drawing, trail), corner_mm) for trail in solution.trails]
     joined, bails, said = with_bail(joined, drawing, config)
     names = [f"wire-{number:02d}" for number in range(1, len(joined) + 1)]
@@ -78,6 +78,14 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
 def _post_bend_mm(diameter_mm: float, jig: JigConfig) -> float:
     """Radius of the tightest bend with room for a printable post on its inside, 0 if that doesn't count."""
     return diameter_mm / 2 + jig.clearance + jig.min_wall_width / 2 if jig.post_bends else 0.0
+
+
+def _let_go_mm(radius_mm: float, config: Config) -> float:
+    """What a bend of this radius in the jig becomes when it is let go, if the jig makes up for that."""
+    if config.jig.springback == "report":
+        return radius_mm
+    wire = config.wire
+    return 1 / (1 / radius_mm - METALS[wire.metal].springback_per_mm(wire.gauge, wire.temper))
 
 
 def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:
