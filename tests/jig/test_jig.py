@@ -234,10 +234,22 @@ def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPat
 def test_split_where_only_the_tail_of_another_wire_is_in_the_way() -> None:
     # A corner, and a wire that ends in it: its hole takes the ground that the corner's wall would stand on.
     corner = arcs((0, 0), 0, (15, 0), (1.3, 100), (15, 0))
-    ends = line((28, -10), (15.8, 0.4))
-    single, _ = build_jig(wires_of([corner, ends]), config(split="single"))
+    hook = arcs((15.8, 0.4), math.radians(-40), (12, 0), (6, 90), (6, 0)).reversed()
+    single, _ = build_jig(wires_of([corner, hook]), config(split="single"))
     assert support_by_wire(single.jigs[0].support)["wire-01"] < 0.5
-    jigs, findings = build_jig(wires_of([corner, ends]), config())
-    assert len(jigs.jigs) == 2
+    jigs, findings = build_jig(wires_of([corner, hook]), config())
+    assert [jig.name for jig in jigs.jigs] == ["jig-wire-01", "jig-wire-02"]
     assert support_by_wire(jigs.jigs[0].support)["wire-01"] > 0.95
     assert "split" in {finding.code for finding in findings}
+
+
+def test_a_wire_with_nothing_to_hold_makes_way() -> None:
+    corner = arcs((0, 0), 0, (15, 0), (1.3, 100), (15, 0))
+    straight_wire = line((28, -10), (15.8, 0.4))
+    jigs, findings = build_jig(wires_of([corner, straight_wire]), config())
+    (jig,) = jigs.jigs
+    assert (jig.name, jig.wires) == ("jig", ("wire-01",))
+    assert support_by_wire(jig.support)["wire-01"] > 0.95
+    assert {finding.code: finding.where for finding in findings} == {"no-jig": "wire-02"}
+    (only_one,) = build_jig(wires_of([straight_wire]), config())[0].jigs
+    assert only_one.wires == ("wire-01",)

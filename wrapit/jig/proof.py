@@ -67,6 +67,17 @@ def split_finding(shared: Mapping[str, float], jigs: int, wanted: float) -> Find
     )
 
 
+def free_finding(wire: str) -> Finding:
+    """Says why a wire is in no jig."""
+    return Finding(
+        "note",
+        "no-jig",
+        wire,
+        "it has neither turns nor long stretches to hold, so it is in none of the jigs",
+        "bend it by hand over the drawing, or set jig.split to single",
+    )
+
+
 def _remedy(course: Course, one: TurnSupport, config: JigConfig) -> str:
     bend = one.turn.max_curvature_per_mm
     if bend > 0 and 2 * (1 / bend - course.reach_mm) < config.min_wall_width:

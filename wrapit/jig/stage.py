@@ -11,7 +11,7 @@ from wrapit.jig.course import Course
 from wrapit.jig.faces import CLEARANCE_TOLERANCE_MM, plain_finding, wall_face
 from wrapit.jig.model import Jig, JigSet, Part
 from wrapit.jig.plan import plan_jig
-from wrapit.jig.proof import split_finding, support_findings
+from wrapit.jig.proof import free_finding, split_finding, support_findings
 from wrapit.jig.seats import check_seats, seats_near
 from wrapit.jig.solids import jig_solid
 from wrapit.jig.split import grouped
@@ -30,33 +30,34 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     """
     _check_wishes(wires, config)
 
-    def planned(group: tuple[Wire, ...], name: str) -> _Planned:
-        return _Planned(group, seats_near(group, wires, config), name)
+    if config.split == "single" or len(wires) == 1:
+        return _set([_Planned(wires, config, "jig")], config, ())
+    # A wire without turns and long stretches needs no jig of its own, and its holes take room from others.
+    held = tuple(wire for wire in wires if wire.turns) or wires
+    handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in held)))
 
-    if config.split == "single":
-        return _set([planned(wires, "jig")], config, ())
+    def planned(group: tuple[Wire, ...]) -> _Planned:
+        name = "jig" if group == held else _name(group)
+        return _Planned(group, seats_near(group, held, config), name)
+
     if config.split == "per-wire" or config.springback == "compensate":
-        return _set([planned((wire,), f"jig-{wire.name}") for wire in wires], config, ())
-    single = planned(wires, "jig")
+        return _set([planned((wire,)) for wire in held], config, handmade)
+    single = _Planned(wires, config, "jig")
     shared = single.by_wire
-    if min(shared.values(), default=1.0) >= config.min_turn_support or len(wires) == 1:
+    if min(shared.values(), default=1.0) >= config.min_turn_support:
         return _set([single], config, ())
-    apart = [planned((wire,), f"jig-{wire.name}") for wire in wires]
-    alone = {name: share for each in apart for name, share in each.by_wire.items()}
-    groups = grouped(wires, alone, config)
+    apart = {wire.name: planned((wire,)) for wire in held}
+    alone = {name: share for each in apart.values() for name, share in each.by_wire.items()}
     weak = [name for name, share in shared.items() if share < config.min_turn_support]
-    if len(groups) == 1 or all(alone[name] - shared[name] < WORTH_A_JIG for name in weak):
+    if all(alone[name] - shared[name] < WORTH_A_JIG for name in weak):
         return _set([single], config, ())
-    parts = [
-        next(each for each in apart if each.course.wires == group)
-        if len(group) == 1
-        else planned(group, _name(group))
-        for group in groups
-    ]
-    apart_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
-    if all(apart_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
+    groups = grouped(held, alone, config)
+    parts = [apart[group[0].name] if len(group) == 1 else planned(group) for group in groups]
+    split_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
+    if all(split_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
         return _set([single], config, ())
-    return _set(parts, config, (split_finding(shared, len(groups), config.min_turn_support),))
+    said = [split_finding(shared, len(groups), config.min_turn_support)] if len(groups) > 1 else []
+    return _set(parts, config, (*said, *handmade))
 
 
 def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
