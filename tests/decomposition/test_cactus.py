@@ -101,6 +101,17 @@ def test_large_drawings_of_this_kind_are_proven_without_cuts() -> None:
     assert certified(Problem(graph, WEIGHTS)).proven
 
 
+def test_a_long_ring_with_thorns_is_proven() -> None:
+    count = 400
+    ends = [j for i in range(count) for j in (i, (i + 1) % count)]
+    ends += [j for i in range(count) for j in (i, count + i)]
+    angles = np.random.default_rng(0).uniform(0, 2 * np.pi, len(ends))
+    tangents = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    answer = solved_by_blocks(Problem(Graph(tuple(ends), tangents, (1.0,) * (2 * count)), WEIGHTS))
+    assert answer is not None
+    assert answer.proven
+
+
 def test_it_agrees_on_any_graph_that_it_takes() -> None:
     taken = 0
     for seed in range(150):

@@ -18,7 +18,7 @@ from wrapit.decomposition.blocks import Doors
 from wrapit.decomposition.local import Matching
 from wrapit.decomposition.modes import Branch, Mode, modes_of
 from wrapit.decomposition.offers import Offers
-from wrapit.decomposition.options import ENOUGH, Kind, Option, useful
+from wrapit.decomposition.options import ENOUGH, Option, useful
 from wrapit.decomposition.passages import passage, passages
 
 _ROUNDING = 1e-12
@@ -80,7 +80,7 @@ def options_at(
                 )
                 offers.take(mode, wires, mode.cost + cost, pairs)
     else:
-        _Search(len(doors), sizes, modes, below, weak_cost).run(offers, work)
+        _Search(len(doors), sizes, modes, below, weak_cost, offers).run(work)
     return offers.useful()
 
 
@@ -136,9 +136,10 @@ class _Search:
         modes: Sequence[Mode],
         below: Sequence[Mapping[int, float]],
         weak_cost: float,
+        offers: Offers,
     ) -> None:
         self._doors, self._sizes, self._modes, self._below = doors, sizes, modes, below
-        self._weak_cost = weak_cost
+        self._weak_cost, self._offers = weak_cost, offers
         self._tables = _tables(below, weak_cost)
         seconds = {
             doors + sum(sizes[: branch + 1]) - 1: branch for branch, size in enumerate(sizes) if size == 2
@@ -147,8 +148,9 @@ class _Search:
             {i for i, branch in seconds.items() if mode.through[branch]} for mode in modes
         ]  # ends that would close a ring with the end before them
         self._passed: set[tuple[int, bool]] = set()
+        self._wanted: dict[int, list[_Wanted]] = {}
 
-    def run(self, offers: Offers, work: Work) -> None:
+    def run(self, work: Work) -> None:
         """Takes what is worth it. Raises OutOfWorkError."""
         everything = (1 << len(self._below)) - 1
         states: Iterable[_State] = [
@@ -156,7 +158,6 @@ class _Search:
         ]
         heap: list[tuple[float, int, int, _State]] = []  # of equal bounds, what is nearest to its end
         count = 0
-        self._renew(offers)
         while True:
             for state in states:
                 if (bound := self._at_least(state)) < math.inf:
@@ -171,7 +172,7 @@ class _Search:
             work.spend(1)
             states = self._extended(state) if state.left else ()
             if not state.left:
-                self._look(state, offers)
+                self._look(state)
 
     def _extended(self, state: _State) -> Iterator[_State]:
         """What may become of the last end that is left."""
@@ -187,6 +188,8 @@ class _Search:
     def _at_least(self, state: _State) -> float:
         """A lower bound on the cost of what is wanted still; infinite where nothing is."""
         number, left, cost, loose, _ = state
+        if number not in self._wanted:
+            self._wanted[number] = list(self._still_wanted(number))
         least = math.inf
         for alone, ends, weak, worth in self._wanted[number]:
             missing = ends - loose
@@ -200,11 +203,8 @@ class _Search:
                 least = bound
         return least
 
-    def _renew(self, offers: Offers) -> None:
-        self._wanted = [list(self._still_wanted(number, offers.limits)) for number in range(len(self._modes))]
-
-    def _still_wanted(self, number: int, limits: Mapping[Kind, float]) -> Iterator[_Wanted]:
-        mode = self._modes[number]
+    def _still_wanted(self, number: int) -> Iterator[_Wanted]:
+        mode, limits = self._modes[number], self._offers.limits
         for through, alone, ends, owners in _PATTERNS[self._doors]:
             if not self._doors:
                 worth = limits[False, ENOUGH]
@@ -220,15 +220,15 @@ class _Search:
                     alone, ends - mode.ends, self._weak_cost * closed - mode.spared, worth - _ROUNDING
                 )
 
-    def _look(self, state: _State, offers: Offers) -> None:
+    def _look(self, state: _State) -> None:
         mode = self._modes[state.mode]
         wires = passage(self._doors, self._sizes, mode.through, state.pairs)
         if wires is not None:
-            offers.take(mode, wires, state.cost, state.pairs)
+            self._offers.take(mode, wires, state.cost, state.pairs)
             if wires.alone:
                 # What else there is depends on the branches alone: dearer matchings are of no use.
                 self._passed.add((state.mode, wires.through))
-            self._renew(offers)
+            self._wanted.clear()
 
 
 def _tables(pair: Sequence[Mapping[int, float]], weak_cost: float) -> list[list[float]]:

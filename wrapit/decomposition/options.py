@@ -15,7 +15,7 @@ Kind = tuple[bool, int]
 
 
 class Option(NamedTuple):
-    """One way to divide what hangs on a block or a junction, at the least cost.
+    """One way to divide what hangs on a block or a junction, at the least cost besides one for each segment.
 
     `through` says that its two doors are the ends of one wire; else wires end in there. `contacts`
     counts the junctions in there where a wire that has all its doors touches others, up to ENOUGH,
