@@ -267,7 +267,7 @@ def _build_mirrored_jig(work: _Work, worker: Worker, limit_s: float, folder: Pat
     work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
     work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, laid)
     if folder is not None:
-        write_previews(folder, laid, jigs, MIRRORED)
+        write_previews(folder, wires, laid, jigs, MIRRORED)
         if "dxf" in work.config.outputs:
             work.findings.append(ONE_PLATE)
 
@@ -277,7 +277,7 @@ def _export(work: _Work, folder: Path) -> None:
     assert work.jigs is not None
     config, laser = work.config, None
     with work.stage("exports"):
-        write_previews(folder, work.laid, work.jigs)
+        write_previews(folder, work.wires, work.laid, work.jigs)
         if "dxf" in config.outputs:
             laser, findings = write_plate(folder, work.laid, work.jigs, config)
             work.findings += findings

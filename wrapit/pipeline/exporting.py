@@ -19,18 +19,23 @@ def write_text(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8", newline="\n")
 
 
-def write_previews(folder: Path, wires: Sequence[Wire], jigs: JigSet, suffix: str = "") -> None:
-    """`preview{suffix}.png`: the jig with the wires laid in; several jigs have a picture each."""
+def write_previews(
+    folder: Path, wires: Sequence[Wire], laid: Sequence[Wire], jigs: JigSet, suffix: str = ""
+) -> None:
+    """`preview{suffix}.png`: the jig with the wires laid in; the piece and each jig where one isn't all.
+
+    `laid` are the wires as they lie in the jig, overbent perhaps; `wires` as they are in the piece.
+    """
     from wrapit.exports.preview_png import write_preview
 
-    if len(jigs.jigs) == 1:
-        (jig,) = jigs.jigs
-        write_preview(folder / f"preview{suffix}.png", wires, jig.walls, jig.plate)
+    first = jigs.jigs[0]
+    if len(first.wires) == len(laid):
+        write_preview(folder / f"preview{suffix}.png", laid, first.walls, first.plate)
         return
     write_preview(folder / f"preview{suffix}.png", wires)
     for jig in jigs.jigs:
-        laid = [wire for wire in wires if wire.name in jig.wires]
-        write_preview(folder / f"preview-{jig.name}{suffix}.png", laid, jig.walls, jig.plate)
+        mine = [wire for wire in laid if wire.name in jig.wires]
+        write_preview(folder / f"preview-{jig.name}{suffix}.png", mine, jig.walls, jig.plate)
 
 
 def write_plate(
