@@ -17,10 +17,10 @@ from wrapit.geometry.pieces import chain_of, piece
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
 from wrapit.jig.stage import build_jig
-from wrapit.wires.bail import jump_ring
 from wrapit.wires.eye import EyeSize, best_eye
 from wrapit.wires.mirror import mirrored, mirrored_ring
-from wrapit.wires.model import Wire
+from wrapit.wires.model import JumpRing, Wire
+from wrapit.wires.ring import jump_ring
 from wrapit.wires.stage import draw_wires
 
 GAP_MM = 1.05  # the wire is 1 mm thick; its loop stops 0.05 mm from touching
@@ -39,6 +39,10 @@ def config(temper: str = "dead soft", **bail: object) -> Config:
 def made(solution: Solution, settings: Config) -> tuple[tuple[Wire, ...], dict[str, Finding]]:
     wires, findings = draw_wires(solution, settings)
     return wires, {finding.code: finding for finding in findings}
+
+
+def ring_of(solution: Solution, wires: tuple[Wire, ...], settings: Config) -> JumpRing | None:
+    return jump_ring(wires, solution.decomposition.drawing, settings)[0]
 
 
 def stroke(*points: tuple[float, float]) -> Solution:
@@ -124,18 +128,41 @@ def test_the_loop_turns_away_from_other_wires() -> None:
 def test_where_no_wire_ends_a_jump_ring_is_listed() -> None:
     wires, said = made(ring(), config())
     assert wires[0].bail is None
-    found = jump_ring(wires, ring().decomposition.drawing, config())
+    found = ring_of(ring(), wires, config())
     assert found is not None
     assert found.point == pytest.approx((0, 10), abs=0.1)
-    assert found.outward == (0, 1)
+    assert found.outward == pytest.approx((0, 1), abs=0.01)
     assert found.length_mm == pytest.approx(math.pi * 6)
+    # Its inside is 5 mm wide; the wire in it leaves 0.05 mm: the middle is 2.5 − 0.5 − 0.05 further out.
+    assert found.centre == pytest.approx((0, 11.95, 0), abs=0.1)
+    assert found.free
     assert said["jump-ring"].where.endswith("10.0) mm")
-    other = mirrored_ring(jump_ring(wires, ring().decomposition.drawing, config(at=["10 mm", "0 mm"])))
+    other = mirrored_ring(ring_of(ring(), wires, config(at=["-10 mm", "0 mm"])))
     assert other is not None
     assert (other.point, other.outward) == (
-        pytest.approx((-10, 0), abs=0.1),
-        pytest.approx((-1, 0), abs=1e-3),
+        pytest.approx((10, 0), abs=0.1),
+        pytest.approx((1, 0), abs=0.01),
     )
+
+
+def test_a_jump_ring_keeps_clear_of_a_crossing() -> None:
+    # Two wires that cross at a right angle straight above the centre of gravity: one is hooked beside it.
+    ends = [(-20, -20), (20, 20), (20, -20), (-20, 20)]
+    crossing = solution_of(drawing_of(ends, [(0, 1, None), (2, 3, None)]), [[(0, False)], [(1, False)]])
+    wires, _ = made(crossing, config(at=["0 mm", "0 mm"]))
+    found = ring_of(crossing, wires, config(at=["0 mm", "0 mm"]))
+    assert found is not None
+    assert found.free
+    assert 0.5 < math.hypot(*found.point) < 5
+    tube = np.linspace(0, math.tau, 200)
+    middle, out = np.array(found.centre), np.array([*found.outward, 0])
+    round_it = middle + 3 * (np.outer(np.cos(tube), out) + np.outer(np.sin(tube), [0, 0, 1]))
+    along = np.linspace(-20, 20, 4001)
+    for wire, sign in zip(wires, (1, -1), strict=True):
+        z = np.interp(np.linspace(0, wire.length_mm, 4001), *np.array(wire.lifts or [(0, 0), (60, 0)]).T)
+        line = np.column_stack([along * sign, along, z])
+        apart = np.linalg.norm(round_it[:, None] - line[None], axis=2)
+        assert apart.min() > 1.0, "no nearer than the wires are thick"
 
 
 def test_no_bail_unless_asked_for() -> None:
@@ -143,7 +170,7 @@ def test_no_bail_unless_asked_for() -> None:
     plain = Config(drawing="none.svg")
     (wire,), findings = draw_wires(solution, plain)
     assert wire.bail is None
-    assert jump_ring((wire,), solution.decomposition.drawing, plain) is None
+    assert ring_of(solution, (wire,), plain) is None
     assert not findings
 
 
@@ -186,7 +213,7 @@ def test_the_guide_bends_the_loop_last_or_first() -> None:
 def test_the_guide_shows_the_jump_ring() -> None:
     settings = config()
     wires, _ = made(ring(), settings)
-    found = jump_ring(wires, ring().decomposition.drawing, settings)
+    found = ring_of(ring(), wires, settings)
     page = write_instructions(ring(), wires, GuideConfig(), settings.wire, ring=found)
     assert '<circle class="ring"' in page
     assert "Open the jump ring sideways" in page

@@ -211,14 +211,14 @@ def _draw_wires(work: _Work, folder: Path | None) -> None:
     assert work.solution is not None
     with work.stage("wires"):
         from wrapit.exports.decomposition_svg import decomposition_svg
-        from wrapit.wires.bail import jump_ring
+        from wrapit.wires.ring import jump_ring
         from wrapit.wires.stage import draw_wires
 
         work.wires, findings = draw_wires(work.solution, work.config)
         work.findings += findings
         work.report["wires"] = reports.wire_numbers(work.wires)
         work.laid = _laid(work)
-        work.ring = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
+        work.ring, _ = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
         if work.config.bail is not None:
             work.report["bail"] = reports.bail_numbers(work.wires, work.ring)
         if folder is not None:

@@ -15,7 +15,6 @@ from wrapit.wires.model import JumpRing, Wire
 if TYPE_CHECKING:
     from wrapit.kernel.files import FilePart
 
-RING_GAP_MM = 0.05  # between a ring and the wire inside it
 PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
 
 
@@ -93,10 +92,7 @@ def _write_wires(
 
 
 def _ring_solid(ring: JumpRing) -> Any:
-    """The ring upright round the lowest layer, which lies inside it against its wire."""
     from wrapit.kernel.sweeps import torus
 
-    radius, (x, y), (u, v) = ring.inner_diameter_mm / 2, ring.point, ring.outward
-    out = radius - ring.diameter_mm / 2 - RING_GAP_MM
-    centre = (x + out * u, y + out * v, 0.0)
-    return torus(centre, (-v, u, 0.0), radius + ring.diameter_mm / 2, ring.diameter_mm / 2, "jump-ring")
+    u, v = ring.outward
+    return torus(ring.centre, (-v, u, 0.0), ring.radius_mm, ring.diameter_mm / 2, "jump-ring")

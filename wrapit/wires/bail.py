@@ -1,4 +1,4 @@
-"""The bail: a loop at the end of a wire that the piece hangs from, or the place of a jump ring."""
+"""The bail: a loop at the end of a wire that the piece hangs from."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ from wrapit.errors import Finding, WireError
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import joined as as_one
-from wrapit.geometry.pieces import chain_of
 from wrapit.materials import min_inner_bend_radius_mm
 from wrapit.wires.centreline import Joined
 from wrapit.wires.eye import Eye, EyeSize, best_eye
-from wrapit.wires.model import Bail, JumpRing, Wire
+from wrapit.wires.model import Bail
 
 STEP_MM = 0.05
 PLUMB_MM = 0.1  # the top is the highest place so near to the line through the centre of gravity
@@ -31,14 +30,14 @@ def with_bail(
 ) -> tuple[list[Joined], dict[int, Bail], tuple[Finding, ...]]:
     """The wires, one of them with a loop at an end near the bail's place; which wire has it, by index.
 
-    None has one where no wire ends there with room for it; a finding says so. Raises WireError where the
-    loop is too tight for the metal, or its place is no junction or far from any wire.
+    None has one where no wire ends there with room for it: `jump_ring` has a place for a ring then. Raises
+    WireError where the loop is too tight for the metal, or its place is no junction.
     """
     if config.bail is None:
         return list(joined), {}, ()
     size = _size(config.bail, config)
     chains = [each.chain for each in joined]
-    place, outward = _place(chains, drawing, config.bail)
+    place, outward = hanging_place(chains, drawing, config.bail)
     lines = [_line(chain) for chain in chains]
     for index, at_end in _ends_near(chains, place, config.bail.diameter):
         stem = chains[index] if at_end else chains[index].reversed()
@@ -48,32 +47,10 @@ def with_bail(
             bent = _extended(joined[index], eye, at_end)
             bail = _bail(bent, eye, at_end, config.bail)
             return [*joined[:index], bent, *joined[index + 1 :]], {index: bail}, (_loop_finding(bail, index),)
-    return list(joined), {}, (_ring_finding(_ring(chains, drawing, config.bail, config.wire.gauge)),)
+    return list(joined), {}, ()
 
 
-def jump_ring(wires: Sequence[Wire], drawing: Drawing, config: Config) -> JumpRing | None:
-    """The jump ring that the piece hangs from; None without a bail, or if a wire's end is bent into one."""
-    if config.bail is None or any(wire.bail is not None for wire in wires):
-        return None
-    chains = [chain_of(wire.centreline) for wire in wires]
-    return _ring(chains, drawing, config.bail, config.wire.gauge)
-
-
-def _size(bail: BailConfig, config: Config) -> EyeSize:
-    wire, jig = config.wire, config.jig
-    least = min_inner_bend_radius_mm(wire.gauge, wire.temper)
-    if bail.diameter < 2 * least:
-        raise WireError(
-            f"a loop of {bail.diameter:g} mm inside is tighter than this wire takes",
-            "bail.diameter",
-            f"make it {2 * least:.1f} mm or more, or use thinner or softer wire",
-        )
-    # The neck leaves room for the narrowest wall inside its bend.
-    post = jig.clearance + jig.min_wall_width / 2 + EXTRA_MM
-    return EyeSize((bail.diameter + wire.gauge) / 2, wire.gauge / 2 + max(least, post), wire.gauge)
-
-
-def _place(
+def hanging_place(
     chains: Sequence[BezierChain], drawing: Drawing, bail: BailConfig
 ) -> tuple[FloatArray, FloatArray]:
     """Where the piece hangs from, and the unit direction away from its centre of gravity."""
@@ -95,6 +72,20 @@ def _place(
         )
     away = place - centre
     return place, unit(away) if np.linalg.norm(away) > 1e-6 else np.array([0.0, 1.0])
+
+
+def _size(bail: BailConfig, config: Config) -> EyeSize:
+    wire, jig = config.wire, config.jig
+    least = min_inner_bend_radius_mm(wire.gauge, wire.temper)
+    if bail.diameter < 2 * least:
+        raise WireError(
+            f"a loop of {bail.diameter:g} mm inside is tighter than this wire takes",
+            "bail.diameter",
+            f"make it {2 * least:.1f} mm or more, or use thinner or softer wire",
+        )
+    # The neck leaves room for the narrowest wall inside its bend.
+    post = jig.clearance + jig.min_wall_width / 2 + EXTRA_MM
+    return EyeSize((bail.diameter + wire.gauge) / 2, wire.gauge / 2 + max(least, post), wire.gauge)
 
 
 def _weights(cloud: FloatArray) -> FloatArray:
@@ -147,23 +138,6 @@ def _bail(bent: Joined, eye: Eye, at_end: bool, config: BailConfig) -> Bail:
     return Bail(start, end, (float(eye.centre[0]), float(eye.centre[1])), config.diameter)
 
 
-def _ring(chains: Sequence[BezierChain], drawing: Drawing, bail: BailConfig, gauge_mm: float) -> JumpRing:
-    place, outward = _place(chains, drawing, bail)
-    points = np.concatenate([chain.sampled(STEP_MM) for chain in chains])
-    apart = np.linalg.norm(points - place, axis=1)
-    nearest = int(apart.argmin())
-    if apart[nearest] > bail.diameter:
-        raise WireError(
-            f"there is no wire within {bail.diameter:g} mm of ({place[0]:.1f}, {place[1]:.1f}) mm",
-            "bail.at",
-            "give a point of the drawing, as drawing.json has it, or `top`",
-        )
-    point = points[nearest]
-    return JumpRing(
-        (float(point[0]), float(point[1])), (float(outward[0]), float(outward[1])), bail.diameter, gauge_mm
-    )
-
-
 def _loop_finding(bail: Bail, index: int) -> Finding:
     return Finding(
         "note",
@@ -172,16 +146,4 @@ def _loop_finding(bail: Bail, index: int) -> Finding:
         f"its end goes on into a loop of {bail.inner_diameter_mm:g} mm inside, round"
         f" ({bail.centre[0]:.1f}, {bail.centre[1]:.1f}) mm",
         "hang the piece from it; wrap the tail round the neck",
-    )
-
-
-def _ring_finding(ring: JumpRing) -> Finding:
-    return Finding(
-        "note",
-        "jump-ring",
-        f"({ring.point[0]:.1f}, {ring.point[1]:.1f}) mm",
-        f"no wire ends there with room for a loop of {ring.inner_diameter_mm:g} mm,"
-        " so the guide lists a jump ring",
-        "to have a wire bent into the loop, set bail.at to a free end,"
-        " or let one end there with decomposition.constraints",
     )

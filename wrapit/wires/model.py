@@ -9,6 +9,7 @@ from typing import Literal
 from wrapit.decomposition.model import Traversal
 from wrapit.geometry import BSpline, FloatArray
 
+RING_GAP_MM = 0.05
 Side = Literal["left", "right", "both"]
 
 
@@ -49,17 +50,35 @@ class Bail:
 
 @dataclass(frozen=True)
 class JumpRing:
-    """A ring round the wire at a point, upright; `outward` is the unit direction in which it hangs out."""
+    """An upright ring hooked round the wire at a point, where that lies `height_mm` over the lowest layer.
+
+    `outward` is the unit direction across the wire in which it hangs out; `free` says that it touches no
+    other wire.
+    """
 
     point: tuple[float, float]
     outward: tuple[float, float]
+    height_mm: float
     inner_diameter_mm: float
     diameter_mm: float
+    free: bool
+
+    @property
+    def radius_mm(self) -> float:
+        """Of its centreline."""
+        return (self.inner_diameter_mm + self.diameter_mm) / 2
+
+    @property
+    def centre(self) -> tuple[float, float, float]:
+        """Its middle; the wire lies RING_GAP_MM from touching its inside."""
+        out = self.radius_mm - self.diameter_mm - RING_GAP_MM
+        (x, y), (u, v) = self.point, self.outward
+        return x + out * u, y + out * v, self.height_mm
 
     @property
     def length_mm(self) -> float:
         """Wire in the ring."""
-        return math.pi * (self.inner_diameter_mm + self.diameter_mm)
+        return math.tau * self.radius_mm
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ from wrapit.wires.centreline import FOLD_RAD, Joined, join
 from wrapit.wires.lifts import lay_wires
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
+from wrapit.wires.ring import jump_ring
 from wrapit.wires.turns import find_turns
 
 CURVATURE_STEP_MM = 0.02
@@ -72,7 +73,8 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
                 bail=bails.get(index),
             )
         )
-    return tuple(wires), tuple(findings)
+    _, placed = jump_ring(wires, drawing, config)
+    return tuple(wires), (*findings, *placed)
 
 
 def _post_bend_mm(diameter_mm: float, jig: JigConfig) -> float:
