@@ -12,6 +12,7 @@ from wrapit.drawing.network import Network
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths, unless the name says otherwise.
+_INSIDE = 0.25
 _REACH = 1.3
 _SMOOTHING = 0.35
 _CLEAN = 0.09
@@ -66,12 +67,14 @@ def centre_lines(
     ]
     sigma = max(_SMOOTHING * width_px, 1.0) / step
     # The first pass only has to come near enough for the second.
-    for fineness in (8, 14):
+    for fineness, inside in ((8, 0.0), (14, _INSIDE)):
         paths = [smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
         points = np.concatenate(paths)
         bounds = np.cumsum([len(path) for path in paths])[:-1]
         normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
-        left, right = edges(ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness))
+        left, right = edges(
+            ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness), inside=inside * width_px
+        )
         width = left + right
         shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
         points = points + np.nan_to_num(shift)[:, None] * normals
@@ -154,20 +157,19 @@ def edges(
     normals: FloatArray,
     reach: float,
     step: float,
+    inside: float = 0.0,
     bridged: float = 0.0,
 ) -> tuple[FloatArray, FloatArray]:
     """Distance to the edge of the ink against and along the normal; nan where there is none in reach.
 
-    Paper narrower than `bridged` counts as ink.
+    The search starts at `inside`; paper narrower than `bridged` counts as ink.
     """
-    count = int(np.ceil(reach / step))
-    offsets = np.arange(-count, count + 1) * step
-    places = points[:, None] + offsets[None, :, None] * normals[:, None]
-    levels = sample(ink.grey, places) - ink.half
-    sides = [levels[:, count::-1], levels[:, count:]]
+    offsets = np.arange(inside, reach + step, step)
+    sides = [sample(ink.grey, points, normals, sign * offsets) - ink.half for sign in (-1, 1)]
     if bridged:
         sides = [_closed(side, int(bridged / step)) for side in sides]
-    return _first_crossing(sides[0], step), _first_crossing(sides[1], step)
+    against, along = (_first_crossing(side, step) + inside for side in sides)
+    return against, along
 
 
 def _closed(levels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
@@ -189,16 +191,21 @@ def _first_crossing(levels: NDArray[np.float32], step: float) -> FloatArray:
     return np.where(found, (np.maximum(at - 1, 0) + share) * step, np.nan)
 
 
-def sample(grey: NDArray[np.uint8], places: FloatArray) -> NDArray[np.float32]:
-    """Bilinear grey levels at places (..., 2); outside the picture its rim continues."""
+def sample(
+    grey: NDArray[np.uint8], points: FloatArray, directions: FloatArray, offsets: FloatArray
+) -> NDArray[np.float32]:
+    """Bilinear grey levels (n, k) at offsets from points (n, 2); outside the picture its rim continues."""
     height, width = grey.shape
-    x = np.clip(places[..., 0], 0, width - 1.001).astype(np.float32)
-    y = np.clip(places[..., 1], 0, height - 1.001).astype(np.float32)
-    column, row = x.astype(np.int64), y.astype(np.int64)
+    x, y = (
+        np.clip(points[:, k, None] + offsets * directions[:, k, None], 0, side - 1.001).astype(np.float32)
+        for k, side in ((0, width), (1, height))
+    )
+    column, row = x.astype(np.int32), y.astype(np.int32)
     x -= column
     y -= row
     flat = grey.ravel()
     at = row * width + column
-    top = flat[at] * (1 - x) + flat[at + 1] * x
-    low = flat[at + width] * (1 - x) + flat[at + width + 1] * x
-    return top * (1 - y) + low * y
+    a, b, c, d = (flat.take(at + step).astype(np.float32) for step in (0, 1, width, width + 1))
+    top = a + (b - a) * x
+    low = c + (d - c) * x
+    return top + (low - top) * y

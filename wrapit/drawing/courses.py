@@ -5,15 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.drawing.centring import Line, lengths
 from wrapit.drawing.network import Network
 from wrapit.drawing.shared import excess
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, IntArray
 
 # In stroke widths.
 _LONGEST = 60.0
 _EXCESS = 0.15
+_PLAIN = 1.08
+# A stretch as broad as one stroke that is longer than this is one that both share.
+LONGEST_FLAT = 4.0
 _OPENING = 3.0
 
 
@@ -27,14 +31,15 @@ class Course:
     points: FloatArray
 
 
-def course_of(
-    net: Network, lines: dict[int, Line], strand: int, width_px: float, least: float
-) -> Course | None:
+def course_of(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Course | None:
     """The way along a ribbon from a strand on, if that is broader than one stroke and ends in two forks."""
     s, line = net.strands[strand], lines[strand]
     if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
         return None
-    if not least * width_px < line.length < _LONGEST * width_px or excess(line, width_px) < _EXCESS:
+    if line.length > _LONGEST * width_px or excess(line, width_px) < _EXCESS:
+        return None
+    step = line.length / (len(line.points) - 1)
+    if longest_run(line.width < _PLAIN * width_px) * step > (LONGEST_FLAT + 0.5) * width_px:
         return None
     if _is_opening(net, lines, strand, width_px):
         return None
@@ -100,3 +105,9 @@ def even(parts: list[FloatArray], width_px: float) -> FloatArray:
     points = np.concatenate(parts)
     count = max(8, int(lengths(points)[-1] / max(width_px / 8, 1.0)))
     return _at_shares(points, np.linspace(0, 1, count))
+
+
+def longest_run(flags: NDArray[np.bool_]) -> int:
+    """How many flags in a row are set, at most."""
+    bounds: IntArray = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
+    return int((bounds[1::2] - bounds[::2]).max()) if len(bounds) else 0

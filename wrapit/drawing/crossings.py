@@ -9,7 +9,7 @@ from wrapit.drawing.centring import Line
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.network import Network
 from wrapit.drawing.shared import Explanation, explain, worth_explaining
-from wrapit.drawing.unzipping import unzip_ribbons, unzip_short_ribbons
+from wrapit.drawing.unzipping import unzip_rest, unzip_ribbons
 
 
 def join_crossings(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
@@ -34,7 +34,7 @@ def join_crossings(net: Network, lines: dict[int, Line], ink: Ink, width_px: flo
             continue
         taken |= {s.start, s.end}
         _cross(net, lines, explanation)
-    unzip_short_ribbons(net, lines, ink, width_px)
+    unzip_rest(net, lines, ink, width_px)
 
 
 def _cross(net: Network, lines: dict[int, Line], explanation: Explanation) -> None:

@@ -21,8 +21,7 @@ def place_end(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
     a, b, _ = arm.model
     # The curve goes on as its tangent, a quadratic would curl.
     start, slope = a, b / max(float(np.linalg.norm(b)), 1e-9)
-    places = start - steps[:, None] * slope
-    levels = sample(ink.grey, places) - ink.half
+    levels = sample(ink.grey, start[None], -slope[None], steps)[0] - ink.half
     light = np.flatnonzero(levels > 0)
     if not len(light) or light[0] == 0:
         return start, Ending(slope, np.zeros((0, 2)), arm.cut)

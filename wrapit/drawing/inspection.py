@@ -17,7 +17,7 @@ _BRANCHES = 0.10
 _UNEVEN = 0.35
 _THICK_SHARE = 0.12
 _FAT_AREA = 0.25
-_FAT_WIDTH = 2.2
+_FAT_WIDTH = 3.0
 _INK_SHARE = 0.6
 _LONGEST = 3.0
 _PIECES = 40
@@ -91,9 +91,9 @@ def midtones(ink: Ink) -> float:
 def fat_share(ink: Ink, skeleton: Skeleton) -> float:
     """Share of the ink that lines of the usual width don't account for, 0…1."""
     usual = float(np.median(skeleton.distance))
-    if float(skeleton.distance.max()) < 2.5 * usual:
+    if float(skeleton.distance.max()) < (_FAT_WIDTH + 0.5) * usual:
         return 0.0
-    thin = skeleton.distance < 2 * usual
+    thin = skeleton.distance < _FAT_WIDTH * usual
     covered = 1.1 * float((2 * skeleton.distance[thin] - 1).sum())
     return max(0.0, 1 - covered / float(ink.mask.sum()))
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.centring import Line, edges, lengths, smoothed
-from wrapit.drawing.courses import Course, course_of, even
+from wrapit.drawing.courses import LONGEST_FLAT, Course, course_of, even, longest_run
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.junctions import Arm, arm
 from wrapit.drawing.network import Network
@@ -28,7 +28,6 @@ _SLOPE = 0.4
 _NARROW = 0.35
 _APART = 0.8
 _FLAT = 0.1
-_LONGEST_FLAT = 4.0
 _MISFIT = 0.06
 _KNOT = 3.0
 _ROUND = 0.25
@@ -37,6 +36,7 @@ _BETTER = 0.75
 _MOST_WAISTS = 6
 _WIDEST = 1.6
 _ALONE = 0.6
+_TOUCH = 0.15
 _BRIDGED = 0.35
 _BEYOND = 2.0
 _BEYOND_APART = 1.7
@@ -67,14 +67,14 @@ class Ribbon:
 
 
 def find_ribbons(
-    net: Network, lines: dict[int, Line], ink: Ink, width_px: float, least: float
+    net: Network, lines: dict[int, Line], strands: list[int], ink: Ink, width_px: float
 ) -> list[Ribbon]:
-    """Ribbons longer than `least` stroke widths in which two strokes can be told apart."""
+    """Ribbons that start from some of the strands and in which two strokes can be told apart."""
     found, seen = [], set[int]()
-    for strand in list(net.strands):
-        if strand in seen:
+    for strand in strands:
+        if strand in seen or strand not in net.strands:
             continue
-        course = course_of(net, lines, strand, width_px, least)
+        course = course_of(net, lines, strand, width_px)
         if course is None:
             continue
         seen |= set(course.strands)
@@ -108,6 +108,8 @@ def _explained(
     left, right, known, gap = sides
     found = _swaps(gap / usual, known, step / usual)
     if found is None:
+        return None
+    if not found[0] and gap.min() < _TOUCH * usual:
         return None
     swaps = [int(np.clip(at, core.start + 1, core.stop - 2)) - core.start for at in found[0]]
     if len(set(swaps)) < len(found[0]):
@@ -197,7 +199,7 @@ def _secant(side: FloatArray, step: float, sigma: float) -> FloatArray:
 def _swaps(gap: FloatArray, known: NDArray[np.bool_], step: float) -> tuple[list[int], float] | None:
     """The points where two strokes change sides, from their distance along the ribbon (all in widths)."""
     reach = max(3, int(_END / step))
-    if min(gap[:reach].max(), gap[-reach:].max()) < _OPEN or _longest_run(gap < _FLAT) * step > _LONGEST_FLAT:
+    if min(gap[:reach].max(), gap[-reach:].max()) < _OPEN or longest_run(gap < _FLAT) * step > LONGEST_FLAT:
         return None
     waists = _waists(gap, step)
     known = known & (gap < _WIDEST)
@@ -268,8 +270,3 @@ def _waists(gap: FloatArray, step: float) -> list[int]:
         if all(abs(at - other) * step > _APART for other in kept):
             kept.append(at)
     return sorted(kept)
-
-
-def _longest_run(flags: NDArray[np.bool_]) -> int:
-    bounds: IntArray = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
-    return int((bounds[1::2] - bounds[::2]).max()) if len(bounds) else 0

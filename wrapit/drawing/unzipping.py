@@ -23,24 +23,36 @@ _WELL_APART = 0.6
 
 
 def unzip_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
-    """Puts the two strokes of each long ribbon in its place, until none is left that can be explained."""
+    """Puts the two strokes of each long ribbon in its place, where they can be told apart."""
+    strands = [strand for strand in net.strands if lines[strand].length > _LONG * width_px]
     for _ in range(_ROUNDS):
-        if not _unzip(net, lines, find_ribbons(net, lines, ink, width_px, _LONG)):
-            return
+        changed = _unzip(net, lines, find_ribbons(net, lines, strands, ink, width_px))
+        # The neighbours of a ribbon have other arms now.
+        strands = [
+            strand
+            for strand in strands
+            if strand in net.strands
+            and any(
+                other in changed
+                for node in (net.strands[strand].start, net.strands[strand].end)
+                for other, _ in net.ends_at(node)
+            )
+        ]
 
 
-def unzip_short_ribbons(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
-    """Does the same with short ribbons that are left; only strokes well apart are parted there."""
-    ribbons = find_ribbons(net, lines, ink, width_px, _SHORT)
-    sure = [r for r in ribbons if r.swaps or _narrowest(r) > _WELL_APART * width_px]
-    _unzip(net, lines, sure)
+def unzip_rest(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
+    """Does the same with what is left, short ribbons too; only strokes well apart are parted there."""
+    strands = [strand for strand in net.strands if lines[strand].length > _SHORT * width_px]
+    ribbons = find_ribbons(net, lines, strands, ink, width_px)
+    _unzip(net, lines, [r for r in ribbons if r.swaps or _narrowest(r) > _WELL_APART * width_px])
 
 
 def _narrowest(ribbon: Ribbon) -> float:
     return float(np.linalg.norm(ribbon.left - ribbon.right, axis=1).min())
 
 
-def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon]) -> bool:
+def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon]) -> set[int]:
+    """Unzips ribbons that don't touch each other; the strands of them and their arms."""
     taken: set[int] = set()
     for ribbon in sorted(ribbons, key=lambda r: (r.misfit, r.strands)):
         touched = {*(arm.strand for arm in (*ribbon.heads, *ribbon.tails)), *ribbon.strands}
@@ -51,7 +63,7 @@ def _unzip(net: Network, lines: dict[int, Line], ribbons: list[Ribbon]) -> bool:
             _cross(net, lines, ribbon)
         else:
             _part(net, lines, ribbon)
-    return bool(taken)
+    return taken
 
 
 def _cross(net: Network, lines: dict[int, Line], ribbon: Ribbon) -> None:
