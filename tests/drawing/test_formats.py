@@ -261,3 +261,12 @@ def test_an_unknown_kind_of_file_is_refused(tmp_path):
     (tmp_path / "drawing.pdf").write_bytes(b"%PDF")
     with pytest.raises(DrawingError, match=r"\.pdf"):
         trace(tmp_path / "drawing.pdf", TracingConfig(), 40.0)
+
+
+def test_a_thin_frame_does_not_make_a_thicker_drawing_a_filled_shape(tmp_path):
+    frame = [np.array([(12, 12), (348, 12), (348, 288), (12, 288), (12, 12)], float)]
+    picture = np.minimum(render(frame, 4.0, SHAPE), render(CROSS, 11.0, SHAPE))
+    path = tmp_path / "framed.png"
+    Image.fromarray(picture.astype(np.uint8)).save(path)
+    drawing, _ = trace(path, TracingConfig(), 40.0)
+    assert len(drawing.segments) == 4  # the cross, without the frame
