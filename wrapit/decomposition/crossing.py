@@ -190,17 +190,16 @@ class _Search:
         number, left, cost, loose, _ = state
         if number not in self._wanted:
             self._wanted[number] = list(self._still_wanted(number))
-        least = math.inf
+        least, tables = math.inf, self._tables
         for alone, ends, weak, worth in self._wanted[number]:
             missing = ends - loose
-            bound = cost + self._tables[missing if missing > 0 else 0][left]
-            if alone:
-                if missing < 0:
-                    continue
-            else:
-                bound = max(bound, cost + weak + self._weak_cost / 2 * loose + self._tables[-1][left])
-            if bound < worth and bound < least:
-                least = bound
+            if alone and missing < 0:
+                continue
+            more = tables[missing if missing > 0 else 0][left]
+            if not alone:
+                more = max(more, weak + self._weak_cost / 2 * loose + tables[-1][left])
+            if cost + more < min(worth, least):
+                least = cost + more
         return least
 
     def _still_wanted(self, number: int) -> Iterator[_Wanted]:

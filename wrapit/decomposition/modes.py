@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from itertools import product
 from typing import NamedTuple
 
@@ -32,17 +33,14 @@ def modes_of(branches: Sequence[Branch], weak_cost: float) -> list[Mode]:
 class Mode:
     """Branches of which it is known whether wires pass, with their options by contacts.
 
-    `least` are the cheapest of these, `cost` is their cost. Above that, `contacts[n]` is the cost of n
-    contacts in all branches together (2: or more), `touched[i]` that of any in branch i, `enough` the
-    least at which a wire with all the doors that it has of some branch touches another one in there.
-    `ends` counts the wire ends in all branches; `spared` is how much of the weight of weak wires they
-    can save together.
+    `least` are the cheapest of these, `cost` is their cost; `touched[i]` is how much more it costs if
+    there are contacts in branch i.
     """
 
     def __init__(
         self, branches: Sequence[Branch], chosen: Sequence[Mapping[int, Option]], weak_cost: float
     ) -> None:
-        self._chosen = chosen
+        self._branches, self._chosen, self._weak_cost = branches, chosen, weak_cost
         self.least = [min(options.values()) for options in chosen]
         self.cost = sum(option.cost for option in self.least)
         self.through = tuple(option.through for option in self.least)
@@ -50,18 +48,40 @@ class Mode:
             min((option.cost for n, option in options.items() if n), default=math.inf) - least.cost
             for options, least in zip(chosen, self.least, strict=True)
         ]
-        self.contacts = {n: cost - self.cost for n, (cost, _) in self.totals().items()}
-        self.ends = 0
-        self.enough, self.spared = min(self.touched), 0.0
-        for branch, passes, touched in zip(branches, self.through, self.touched, strict=True):
-            if not passes:
-                self.ends += len(branch.doors)
-            if not passes and len(branch.doors) == 2:
-                # Two wires that have a door each touch one another in there.
-                self.enough = 0.0
-                self.spared += 2 * weak_cost
-            else:
-                self.spared += weak_cost - min(weak_cost, touched)
+
+    @cached_property
+    def contacts(self) -> dict[int, float]:
+        """What contacts in all branches together cost more, by their number (2: or more)."""
+        return {n: cost - self.cost for n, (cost, _) in self.totals().items()}
+
+    @cached_property
+    def ends(self) -> int:
+        """Number of wire ends in all branches."""
+        return sum(
+            len(branch.doors)
+            for branch, passes in zip(self._branches, self.through, strict=True)
+            if not passes
+        )
+
+    @cached_property
+    def enough(self) -> float:
+        """The least at which a wire here touches another one in some branch: two that have a door each do."""
+        return 0.0 if any(self._parted) else min(self.touched)
+
+    @cached_property
+    def spared(self) -> float:
+        """How much of the weight of weak wires all branches can save at most."""
+        return sum(
+            2 * self._weak_cost if parted else self._weak_cost - min(self._weak_cost, touched)
+            for parted, touched in zip(self._parted, self.touched, strict=True)
+        )
+
+    @property
+    def _parted(self) -> list[bool]:
+        return [
+            len(branch.doors) == 2 and not passes
+            for branch, passes in zip(self._branches, self.through, strict=True)
+        ]
 
     def totals(self) -> dict[int, tuple[float, tuple[Option, ...]]]:
         """Least cost and options for each number of contacts that all branches together can have."""

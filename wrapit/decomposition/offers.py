@@ -8,7 +8,7 @@ from itertools import product
 
 from wrapit.decomposition.local import Matching
 from wrapit.decomposition.modes import Mode
-from wrapit.decomposition.options import ENOUGH, Kind, Option, surcharge, useful
+from wrapit.decomposition.options import ENOUGH, Kind, Option, surcharges, useful
 from wrapit.decomposition.passages import Passage
 
 
@@ -21,14 +21,18 @@ class Offers:
 
     def __init__(self, ends: Sequence[int], doors: int, weak_cost: float) -> None:
         self._ends, self._doors, self._weak_cost = ends, doors, weak_cost
-        self._found: dict[Kind, Option] = {}
+        self._found: dict[Kind, tuple[float, Matching, Sequence[Option]]] = {}
         kinds = product((False, True)[:doors], range(ENOUGH + 1)) if doors else [(False, ENOUGH)]
         self.limits: dict[Kind, float] = dict.fromkeys(kinds, math.inf)
         self._most = math.inf  # of these limits
 
     def useful(self) -> list[Option]:
         """The options that are of use, cheapest first."""
-        return useful(self._found.values(), self._weak_cost)
+        options = (
+            Option(cost, *kind, tuple((self._ends[i], self._ends[j]) for i, j in pairs), tuple(parts))
+            for kind, (cost, pairs, parts) in self._found.items()
+        )
+        return useful(options, self._weak_cost)
 
     def take(self, mode: Mode, wires: Passage, cost: float, pairs: Matching) -> None:
         """Takes what wires come to that run so, where it is cheaper than what is known.
@@ -72,9 +76,10 @@ class Offers:
             self._offer((wires.through, ENOUGH), cost + mode.touched[i], pairs, parts)
 
     def _offer(self, kind: Kind, cost: float, pairs: Matching, parts: Sequence[Option]) -> None:
-        if cost < self.limits[kind]:
-            matching = tuple((self._ends[i], self._ends[j]) for i, j in pairs)
-            self._found[kind] = Option(cost, *kind, matching, tuple(parts))
-            for other, limit in self.limits.items():
-                self.limits[other] = min(limit, cost + surcharge(kind, other, self._weak_cost))
-            self._most = max(self.limits.values())
+        limits = self.limits
+        if cost < limits[kind]:
+            self._found[kind] = cost, pairs, parts
+            for other, surcharge in surcharges(kind, self._weak_cost).items():
+                if cost + surcharge < limits.get(other, -math.inf):
+                    limits[other] = cost + surcharge
+            self._most = max(limits.values())
