@@ -17,7 +17,7 @@ from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.jig.laser_model import LaserJig
-from wrapit.jig.model import JigSet
+from wrapit.jig.model import Jig, JigSet, TurnSupport
 from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.folder import Artifact
 from wrapit.wires.model import JumpRing, Wire
@@ -99,8 +99,24 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "turn_support_by_wire": by_wire,
         "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
         "stretch_support": round(stretch_support(support), 4),
+        "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
+    }
+
+
+def _turn_numbers(jig: Jig, support: TurnSupport) -> dict[str, Any]:
+    turn = support.turn
+    pin = next((pin.diameter_mm for pin in jig.plan.pins if pin.turn == turn), None)
+    bend = turn.max_curvature_per_mm
+    return {
+        "wire": turn.wire,
+        "from_mm": _mm(turn.start_mm),
+        "to_mm": _mm(turn.end_mm),
+        "inside": turn.inside,
+        "min_radius_mm": _mm(1 / bend) if bend > 0 else None,
+        "support": round(support.share, 4),
+        "pin_mm": pin,
     }
 
 
