@@ -9,7 +9,9 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import subprocess
 import sys
+import tempfile
 import time
 import warnings
 from pathlib import Path
@@ -17,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.drawing.generated import random_curve, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
@@ -184,8 +187,47 @@ def autotraced(path: Path) -> int | None:
     return sum(len(p.splines) for p in vector.paths)
 
 
+# Linux keeps the peak of the parent in `ru_maxrss`; that of the process itself is in its status.
+MEASURED = """
+import re, sys
+from pathlib import Path
+from wrapit.config import TracingConfig
+from wrapit.drawing.stage import trace
+peaks = []
+for picture in sys.argv[1:]:
+    trace(Path(picture), TracingConfig(), 60.0)
+    status = Path("/proc/self/status").read_text()
+    peaks.append(int(re.search(r"VmHWM:\\s*(\\d+) kB", status)[1]))
+print(1024 * (peaks[1] - peaks[0]))
+"""
+
+
+def print_memory(side_px: int = 5000) -> None:
+    """Prints the peak memory that one large picture takes in a process of its own, per pixel."""
+    if not Path("/proc/self/status").exists():
+        print("peak memory is measured on Linux only")
+        return
+    from PIL import Image
+
+    curve = random_curve(np.random.default_rng(3), 500)
+    small = Image.fromarray(render([curve], 6.0, (500, 500)))
+    large = small.resize((side_px, side_px), Image.Resampling.BICUBIC)
+    shade = np.linspace(1.0, 0.5, side_px, dtype=np.float32)
+    shaded = Image.fromarray((np.asarray(large) * shade).astype(np.uint8))
+    kinds = {"grey": large, "shaded": shaded, "colour": large.convert("RGB"), "alpha": large.convert("RGBA")}
+    with tempfile.TemporaryDirectory() as folder:
+        small.save(Path(folder) / "small.png")
+        for kind, picture in kinds.items():
+            picture.save(Path(folder) / "large.png")
+            command = [sys.executable, "-c", MEASURED, f"{folder}/small.png", f"{folder}/large.png"]
+            done = subprocess.run(command, capture_output=True, text=True, check=True)
+            print(f"peak memory, {kind:6} {int(done.stdout) / side_px**2:5.1f} bytes per pixel")
+
+
 def main(names: list[str] | None = None) -> None:
-    """Prints one row per picture and a summary per kind."""
+    """Prints one row per picture, a summary per kind, and the memory that a large picture takes."""
+    if not names:
+        print_memory()
     if not (CORPUS / "evaluate.py").exists():
         print("the corpus of drawings is not here; set WRAPIT_CORPUS")
         return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,11 @@ class Line:
     def length(self) -> float:
         """Length in pixels."""
         return float(self.along[-1])
+
+    @cached_property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest x and y, (2,) each."""
+        return self.points.min(axis=0), self.points.max(axis=0)
 
     def turned(self, first: int) -> Line:
         """A closed line that starts (and ends) at another of its points."""

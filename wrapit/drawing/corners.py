@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.drawing.centring import Line, lengths
-from wrapit.drawing.junctions import angle, arm, polynomial
+from wrapit.drawing.junctions import arm
 from wrapit.drawing.network import Network
+from wrapit.drawing.polynomials import angle, polynomial
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths.
@@ -125,25 +126,28 @@ def _crossing(
     """Where two parametric polynomials meet near their zero, and their directions there."""
     s, t = 0.0, 0.0
     limit *= width_px
+    terms = before.tolist(), after.tolist()
     for _ in range(6):
-        p, dp = _value(before, s)
-        q, dq = _value(after, t)
-        matrix = np.column_stack([dp, -dq])
-        if abs(np.linalg.det(matrix)) < 1e-3 * np.linalg.norm(dp) * np.linalg.norm(dq):
+        (px, py, ax, ay), (qx, qy, bx, by) = _value(terms[0], s), _value(terms[1], t)
+        determinant = ay * bx - ax * by
+        if abs(determinant) < 1e-3 * math.hypot(ax, ay) * math.hypot(bx, by):
             return None
-        step = np.linalg.solve(matrix, q - p)
-        s, t = float(np.clip(s + step[0], -limit, limit)), float(np.clip(t + step[1], -limit, limit))
-    p, dp = _value(before, s)
-    q, dq = _value(after, t)
-    if np.linalg.norm(p - q) > 0.05 * width_px:
+        s += ((qy - py) * bx - (qx - px) * by) / determinant
+        t += ((qy - py) * ax - (qx - px) * ay) / determinant
+        s, t = min(max(s, -limit), limit), min(max(t, -limit), limit)
+    p, q = np.array(_value(terms[0], s)), np.array(_value(terms[1], t))
+    if np.linalg.norm(p[:2] - q[:2]) > 0.05 * width_px:
         return None
-    return (p + q) / 2, unit(dp), unit(dq)
+    return (p[:2] + q[:2]) / 2, unit(p[2:]), unit(q[2:])
 
 
-def _value(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:
-    powers = at ** np.arange(len(coefficients))
-    slopes = np.arange(1, len(coefficients)) * powers[:-1]
-    return powers @ coefficients, slopes @ coefficients[1:]
+def _value(terms: list[list[float]], at: float) -> tuple[float, float, float, float]:
+    """Place and derivative of a parametric polynomial."""
+    x = y = dx = dy = 0.0
+    for a, b in reversed(terms):
+        dx, dy = dx * at + x, dy * at + y
+        x, y = x * at + a, y * at + b
+    return x, y, dx, dy
 
 
 def open_tips(net: Network, lines: dict[int, Line], width_px: float) -> None:

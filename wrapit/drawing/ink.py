@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.image import GreyImage
+from wrapit.drawing.image import GreyImage, count_levels
 from wrapit.errors import DrawingError
 
 # Paper that varies by more than this share of the contrast is divided by its background.
@@ -40,7 +40,7 @@ def find_ink(grey: GreyImage, where: str) -> Ink:
     background, shaded = _background(grey)
     if shaded:
         grey = np.clip(grey * (255.0 / np.maximum(background, 1.0)), 0, 255).astype(np.uint8)
-    histogram = np.bincount(grey.ravel(), minlength=256)
+    histogram = count_levels(grey)
     used = np.flatnonzero(histogram)
     if used[-1] - used[0] < 32:
         raise DrawingError(

@@ -9,8 +9,9 @@ import numpy as np
 from wrapit.drawing.centring import Line, lengths
 from wrapit.drawing.ends import place_end
 from wrapit.drawing.ink import Ink
-from wrapit.drawing.junctions import angle, arm
+from wrapit.drawing.junctions import arm
 from wrapit.drawing.network import Network, polyline_length
+from wrapit.drawing.polynomials import angle
 from wrapit.geometry import FloatArray
 
 # Ink gaps in stroke widths, between two ends and between an end and the side of a stroke.
@@ -103,7 +104,11 @@ def _join_side(
 ) -> None:
     own = net.ends_at(node)[0][0]
     best: tuple[float, int, int] | None = None
+    reach = (1 + _SIDE_GAP) * width_px
     for strand, line in lines.items():
+        low, high = line.box
+        if (place < low - reach).any() or (place > high + reach).any():
+            continue
         far = np.linalg.norm(line.points - place, axis=1)
         if strand == own:
             from_tip = line.along if net.ends_at(node)[0][1] == 0 else line.length - line.along
@@ -111,7 +116,7 @@ def _join_side(
         index = int(np.argmin(far))
         if best is None or far[index] < best[0]:
             best = (float(far[index]), strand, index)
-    if best is None or best[0] > (1 + _SIDE_GAP) * width_px:
+    if best is None or best[0] > reach:
         return
     distance, strand, index = best
     point = lines[strand].points[index]

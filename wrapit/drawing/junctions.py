@@ -10,6 +10,7 @@ import numpy as np
 
 from wrapit.drawing.centring import Line
 from wrapit.drawing.network import Network
+from wrapit.drawing.polynomials import angle, angle_of, horner, nearest_along, polynomial
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths.
@@ -55,10 +56,11 @@ class Arm:
 
     def at(self, along: float) -> tuple[FloatArray, FloatArray]:
         """Place and outward unit direction on the model."""
-        return _horner(self._terms, along)
+        x, y, dx, dy = horner(self.terms, along)
+        return np.array([x, y]), np.array([dx, dy])
 
     @cached_property
-    def _terms(self) -> list[list[float]]:
+    def terms(self) -> list[list[float]]:
         return self.model.tolist()
 
 
@@ -69,25 +71,6 @@ class Ending:
     tangent: FloatArray
     lead: FloatArray
     cut: int
-
-
-def _horner(terms: list[list[float]], along: float) -> tuple[FloatArray, FloatArray]:
-    """Place and unit direction of a parametric polynomial; plain numbers, as arrays of two are slow."""
-    x = y = dx = dy = 0.0
-    for a, b in reversed(terms):
-        dx, dy = dx * along + x, dy * along + y
-        x, y = x * along + a, y * along + b
-    norm = math.hypot(dx, dy) or 1.0
-    return np.array([x, y]), np.array([dx / norm, dy / norm])
-
-
-def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray:
-    """Least-squares coefficients (degree + 1, 2), lowest first."""
-    scale = max(float(np.abs(along).max()), 1e-9)
-    powers = (along / scale)[:, None] ** np.arange(degree + 1)
-    normal = powers.T @ powers + 1e-12 * np.eye(degree + 1)
-    solution = np.linalg.solve(normal, powers.T @ points)
-    return solution / scale ** np.arange(degree + 1)[:, None]
 
 
 def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
@@ -115,12 +98,21 @@ def arms_at(net: Network, lines: dict[int, Line], node: int, width_px: float) ->
 
 def turn(a: Arm, b: Arm) -> float:
     """How much a wire would bend that leaves by `b` after arriving by `a`, in radians."""
-    chord = b.points[0] - a.points[0]
-    gap = float(np.linalg.norm(chord))
-    straight = angle(-a.at(0.0)[1], chord) + angle(chord, b.at(0.0)[1]) if gap > 1e-9 else math.pi
+    (ax, ay), (bx, by) = a.points[0].tolist(), b.points[0].tolist()
+    chord = (bx - ax, by - ay)
+    gap = math.hypot(*chord)
+    straight = math.pi
+    if gap > 1e-9:
+        straight = angle_of(_arriving(a, 0.0), chord) + angle_of(chord, horner(b.terms, 0.0)[2:])
     reach = -min(gap / 2, 1.5 * a.width_px)
-    extrapolated = angle(-a.at(reach)[1], b.at(reach)[1])
+    extrapolated = angle_of(_arriving(a, reach), horner(b.terms, reach)[2:])
     return min(straight, extrapolated + straight / 4)
+
+
+def _arriving(arm: Arm, along: float) -> tuple[float, float]:
+    """Direction of travel towards the junction."""
+    _, _, dx, dy = horner(arm.terms, along)
+    return -dx, -dy
 
 
 def kinked(a: Arm, b: Arm) -> bool:
@@ -129,11 +121,6 @@ def kinked(a: Arm, b: Arm) -> bool:
     if gap > _CLOSE * a.width_px or min(a.length, b.length) < _MARGIN * 10 * a.width_px:
         return False
     return angle(-a.at(-gap / 2)[1], b.at(-gap / 2)[1]) > _KINK_RAD
-
-
-def angle(a: FloatArray, b: FloatArray) -> float:
-    """Angle between two directions, 0…π."""
-    return abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
 
 
 def pair(arms: list[Arm], limit: float = PAIR_RAD) -> list[tuple[int, int]]:
@@ -181,19 +168,16 @@ class Through:
 
     def at(self, along: float) -> tuple[FloatArray, FloatArray]:
         """Place and unit direction (from the first arm to the second)."""
-        return _horner(self._terms, along)
+        x, y, dx, dy = horner(self.terms, along)
+        return np.array([x, y]), np.array([dx, dy])
 
     @cached_property
-    def _terms(self) -> list[list[float]]:
+    def terms(self) -> list[list[float]]:
         return self.coefficients.tolist()
 
     def foot(self, point: FloatArray, along: float) -> float:
         """Where the curve comes nearest to a point, starting the search at `along`."""
-        for _ in range(3):
-            place, direction = self.at(along)
-            step = float((point - place) @ direction)
-            along = float(np.clip(along + step, -0.75 * self.gap, 0.75 * self.gap))
-        return along
+        return nearest_along(self.terms, point, along, -0.75 * self.gap, 0.75 * self.gap)
 
 
 def through(a: Arm, b: Arm) -> Through:
@@ -223,13 +207,14 @@ def place(
     # Two curves fix the point, even where they cross at an acute angle.
     prior = 0.01 if len(curves) < 2 else 1e-4
     for _ in range(3):
-        matrix, right = prior * np.eye(2), prior * point
+        pulls = []
         for k, curve in enumerate(curves):
             feet[k] = curve.foot(point, feet[k])
-            matrix, right = _pulled(matrix, right, *curve.at(feet[k]), 1.0)
+            pulls.append((1.0, *horner(curve.terms, feet[k])))
         for k in single:
-            matrix, right = _pulled(matrix, right, *_extrapolated(arms[k], point), 0.3)
-        point = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+            along = nearest_along(arms[k].terms, point, 0.0, -4 * arms[k].width_px, 0.0)
+            pulls.append((0.3, *horner(arms[k].terms, along)))
+        point = _pulled(point, prior, pulls)
     endings: dict[int, Ending] = {}
     for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):
         foot_now = curve.foot(point, foot)
@@ -244,20 +229,22 @@ def place(
 
 
 def _pulled(
-    matrix: FloatArray, right: FloatArray, on: FloatArray, direction: FloatArray, weight: float
-) -> tuple[FloatArray, FloatArray]:
-    normal = np.array([-direction[1], direction[0]])
-    outer = weight * np.outer(normal, normal)
-    return matrix + outer, right + outer @ on
+    point: FloatArray, prior: float, pulls: list[tuple[float, float, float, float, float]]
+) -> FloatArray:
+    """The point nearest to lines, each with a weight, a place and a direction, and weakly to itself."""
+    xx = yy = prior
+    xy, right_x, right_y = 0.0, prior * float(point[0]), prior * float(point[1])
+    for weight, x, y, dx, dy in pulls:
+        across = weight * (dx * y - dy * x)
+        xx, xy, yy = xx + weight * dy * dy, xy - weight * dx * dy, yy + weight * dx * dx
+        right_x, right_y = right_x - dy * across, right_y + dx * across
+    determinant = xx * yy - xy * xy
+    return np.array([yy * right_x - xy * right_y, xx * right_y - xy * right_x]) / determinant
 
 
 def _extrapolated(single: Arm, point: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Place and direction of the arm's model nearest to a point before its cut."""
-    along = 0.0
-    for _ in range(3):
-        on, direction = single.at(along)
-        along = float(np.clip(along + (point - on) @ direction, -4 * single.width_px, 0.0))
-    return single.at(along)
+    return single.at(nearest_along(single.terms, point, 0.0, -4 * single.width_px, 0.0))
 
 
 def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -> Ending:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.image import GreyImage, load_grey
+from wrapit.drawing.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.ink import Ink, find_ink
 from wrapit.drawing.inspection import refuse_crowd
 from wrapit.drawing.skeleton import Skeleton, thin_within
@@ -99,4 +99,4 @@ def _inked(ink: Ink, tracing: TracingConfig) -> Ink:
     apart = np.where(soft, distance_transform_edt(soft) - 0.5, distance_transform_edt(~soft) - 0.5)
     level = np.clip(apart - _OUTLINE_PX / 2 + 0.5, 0, 1)
     grey = (255 * level + 0.5).astype(np.uint8)
-    return Ink(grey < 128, grey, 255.0, 0.0, ink.shaded, np.bincount(grey.ravel(), minlength=256))
+    return Ink(grey < 128, grey, 255.0, 0.0, ink.shaded, count_levels(grey))

@@ -48,7 +48,7 @@ def thin(mask: BoolImage) -> Skeleton:
     rim = _rim(mask)
     skeletonize: Any = morphology.skeletonize
     skeleton = _measured(skeletonize(mask), rim)
-    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::3])
+    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::8])
     if reach.max() > max(skeleton.width_px + 1, 1.2 * skeleton.distance.max()):
         skeleton = _measured(skeletonize(mask, method="lee") > 0, rim)
     return skeleton

@@ -1,0 +1,52 @@
+"""Short polynomials in the length along a stroke, and angles, mostly in plain numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from wrapit.geometry import FloatArray
+
+
+def horner(terms: list[list[float]], along: float) -> tuple[float, float, float, float]:
+    """Place and unit direction of a parametric polynomial; plain numbers, as arrays of two are slow."""
+    x = y = dx = dy = 0.0
+    for a, b in reversed(terms):
+        dx, dy = dx * along + x, dy * along + y
+        x, y = x * along + a, y * along + b
+    norm = math.hypot(dx, dy) or 1.0
+    return x, y, dx / norm, dy / norm
+
+
+def nearest_along(
+    terms: list[list[float]], point: FloatArray, along: float, low: float, high: float
+) -> float:
+    """Where between two lengths a polynomial comes nearest to a point, starting the search at `along`."""
+    px, py = float(point[0]), float(point[1])
+    for _ in range(3):
+        x, y, dx, dy = horner(terms, along)
+        along = min(max(along + (px - x) * dx + (py - y) * dy, low), high)
+    return along
+
+
+def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray:
+    """Least-squares coefficients (degree + 1, 2), lowest first."""
+    scale = max(float(np.abs(along).max()), 1e-9)
+    powers = np.ones((degree + 1, len(along)))
+    for k in range(degree):
+        np.multiply(powers[k], along / scale, out=powers[k + 1])
+    normal = powers @ powers.T + 1e-12 * np.eye(degree + 1)
+    solution = np.linalg.solve(normal, powers @ points)
+    return solution / scale ** np.arange(degree + 1)[:, None]
+
+
+def angle(a: FloatArray, b: FloatArray) -> float:
+    """Angle between two directions, 0…π."""
+    return angle_of(a.tolist(), b.tolist())
+
+
+def angle_of(a: Sequence[float], b: Sequence[float]) -> float:
+    """The same for plain numbers."""
+    return abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
