@@ -276,3 +276,17 @@ def test_the_laser_cut_jig_has_its_page() -> None:
     assert "6 mm" in section
     assert "3.0 mm above the plate" in section
     assert 'id="laser"' not in guide_of()
+
+
+def test_the_map_of_each_stack_shows_its_own_wires() -> None:
+    from types import SimpleNamespace
+
+    from wrapit.config import JigConfig, PlateConfig
+    from wrapit.instructions.laser_page import plan_laser_page
+    from wrapit.jig.laser_stage import build_laser_jig
+
+    _, wires = eye()
+    apart = tuple(SimpleNamespace(name=f"jig-{wire.name}", wires=(wire.name,)) for wire in wires)
+    laser, _ = build_laser_jig(wires, SimpleNamespace(jigs=apart), JigConfig(), PlateConfig())
+    shown = {stack.jig: [colour for _, colour in stack.wires] for stack in plan_laser_page(laser).stacks}
+    assert shown == {f"jig-{wire.name}": [wire.colour] for wire in wires}

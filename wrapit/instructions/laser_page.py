@@ -74,10 +74,10 @@ class LaserPage:
     pins: tuple[tuple[str, float, float], ...]
 
 
-def plan_laser_page(laser: LaserJig, wires: Sequence[Wire]) -> LaserPage:
+def plan_laser_page(laser: LaserJig) -> LaserPage:
     """What the page says and shows, for every stack of the jig."""
     stacks = [
-        _stack(jig, list(parts), wires)
+        _stack(jig, list(parts), laser.laid[jig])
         for jig, parts in itertools.groupby(laser.parts, lambda part: part.jig)
     ]
     sheets = [
@@ -107,15 +107,8 @@ def _stack(jig: str, parts: Sequence[LaserPart], wires: Sequence[Wire]) -> Stack
         groups=_gluing_order(inlays),
         view_box=frame.view_box,
         parts=tuple(_on_map(part, frame, text_mm) for part in (plate, *inlays)),
-        wires=tuple(
-            (frame.path(chain_of(wire.centreline)), wire.colour) for wire in wires if _within(wire, plate)
-        ),
+        wires=tuple((frame.path(chain_of(wire.centreline)), wire.colour) for wire in wires),
     )
-
-
-def _within(wire: Wire, plate: LaserPart) -> bool:
-    low, high = (edge(plate.shape.outer.sampled(0.1), axis=0) for edge in (np.min, np.max))
-    return bool((wire.ends >= low).all() and (wire.ends <= high).all())
 
 
 def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[GluedGroup, ...]:

@@ -45,6 +45,6 @@ def write_instructions(
         lstrip_blocks=True,
     )
     environment.filters |= {"mm": millimetres, "listed": listed}
-    page = plan_laser_page(laser, wires) if laser is not None else None
+    page = plan_laser_page(laser) if laser is not None else None
     template = environment.get_template("guide.html.jinja")
     return template.render(guide=guide, pictures=Pictures(guide), page=page)

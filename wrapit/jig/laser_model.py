@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from wrapit.geometry import Edge, Region
 from wrapit.geometry.moves import moved
 from wrapit.jig.model import Pin
+from wrapit.wires.model import Wire
 
 LaserLayer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 PartRole = Literal["bottom", "pocket plate", "island", "wall"]
@@ -109,10 +111,12 @@ class LaserChecks:
 class LaserJig:
     """All parts, their sheets, and the measurements; `wall_height_mm` is what stands above the plate.
 
-    `pins` are nails or rods that stand in holes where a turn is too tight for a wall.
+    `pins` are nails or rods that stand in holes where a turn is too tight for a wall. `laid` are the wires
+    that each jig is for, by its name, as they lie in it.
     """
 
     parts: tuple[LaserPart, ...]
+    laid: Mapping[str, tuple[Wire, ...]]
     sheets: tuple[LaserSheet, ...]
     kerf_mm: float
     fit_mm: float

@@ -43,14 +43,12 @@ def build_laser_jig(
     parts: list[LaserPart] = []
     pins: list[Pin] = []
     findings: list[Finding] = []
-    for number, jig in enumerate(jigset.jigs, start=1):
-        mine = tuple(wire for wire in wires if wire.name in jig.wires)
+    laid = {jig.name: tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigset.jigs}
+    for number, (name, mine) in enumerate(laid.items(), start=1):
         prefix = f"{number}." if len(jigset.jigs) > 1 else ""
         plan, more = plan_stack(mine, jig_config, config)
         holes = (*plan.holes, *(_hole_for(pin) for pin in plan.pins))
-        stack, faults = stack_parts(
-            jig.name, prefix, mine, plan.walls, holes, jig_config, config, offset_region
-        )
+        stack, faults = stack_parts(name, prefix, mine, plan.walls, holes, jig_config, config, offset_region)
         parts += stack
         pins += plan.pins
         findings += [*more, *faults]
@@ -59,6 +57,7 @@ def build_laser_jig(
     copies = max(copies_needed(wire.layers, wire.diameter_mm, config) for wire in wires)
     jig_model = LaserJig(
         parts=tuple(parts),
+        laid=laid,
         sheets=sheets,
         kerf_mm=config.kerf,
         fit_mm=config.fit,
