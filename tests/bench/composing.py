@@ -33,6 +33,21 @@ class Composed:
     side: float
     px_per_unit: float = PIXELS_PER_UNIT
 
+    @property
+    def wires_apart(self) -> set[int]:
+        """The wires that end where no other one ends."""
+        ends = [(wire.start, wire.end) for wire in self.wires]
+        return {
+            index
+            for index, own in enumerate(ends)
+            if not any(
+                np.allclose(a, b)
+                for other, theirs in enumerate(ends)
+                if other != index
+                for a, b in itertools.product(own, theirs)
+            )
+        }
+
 
 @dataclass(eq=False)
 class _Table:
@@ -139,15 +154,14 @@ def _contacts(table: _Table, wire: BezierChain, places: list[FloatArray]) -> lis
     line = wire.sampled(_STEP)
     if line.min() < 3 or line.max() > table.side - 3 or not _easy(line, places):
         return None
-    crossings = [
-        (point, angle_rad)
-        for other in table.lines
-        for point, angle_rad in _crossings(line, other)
-        if all(np.linalg.norm(point - place) > 1 for place in places)
-    ]
-    if any(angle_rad < _STEEP_RAD for _, angle_rad in crossings):
-        return None
-    joints = [*places, *(point for point, _ in crossings)]
+    crossings = []
+    for other in table.lines:
+        for point, angle_rad in _crossings(line, other):
+            if all(np.linalg.norm(point - place) > 1 for place in places):
+                if angle_rad < _STEEP_RAD:
+                    return None
+                crossings.append(point)
+    joints = [*places, *crossings]
     roomy = len(joints) >= 2 and _apart(table, joints, line[-1], len(places)) and _clear(table, joints, line)
     return joints if roomy else None
 
@@ -191,8 +205,10 @@ def _easy(line: FloatArray, corners: list[FloatArray]) -> bool:
 
 def _crossings(line: FloatArray, other: FloatArray) -> list[tuple[FloatArray, float]]:
     """Points and angles at which two polylines cross."""
-    a, da = line[:-1, None], np.diff(line, axis=0)[:, None]
-    b, db = other[None, :-1], np.diff(other, axis=0)[None]
+    low = np.maximum(line.min(axis=0), other.min(axis=0))
+    high = np.minimum(line.max(axis=0), other.max(axis=0))
+    (a, da), (b, db) = _steps_within(line, low, high), _steps_within(other, low, high)
+    a, da, b, db = a[:, None], da[:, None], b[None], db[None]
     det = da[..., 0] * db[..., 1] - da[..., 1] * db[..., 0]
     safe = np.where(np.abs(det) < 1e-15, np.inf, det)
     gap = b - a
@@ -201,8 +217,15 @@ def _crossings(line: FloatArray, other: FloatArray) -> list[tuple[FloatArray, fl
     found = []
     for i, j in np.argwhere((s >= 0) & (s < 1) & (t >= 0) & (t < 1)).tolist():
         angle_rad = abs(math.atan2(det[i, j], float((da[i, 0] * db[0, j]).sum())))
-        found.append((line[i] + s[i, j] * da[i, 0], min(angle_rad, math.pi - angle_rad)))
+        found.append((a[i, 0] + s[i, j] * da[i, 0], min(angle_rad, math.pi - angle_rad)))
     return found
+
+
+def _steps_within(line: FloatArray, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Starts and ways of the steps of a polyline that may reach into a box."""
+    least, most = np.minimum(line[:-1], line[1:]), np.maximum(line[:-1], line[1:])
+    near = ((most >= low) & (least <= high)).all(axis=1)
+    return line[:-1][near], np.diff(line, axis=0)[near]
 
 
 def _unit(rng: np.random.Generator) -> FloatArray:

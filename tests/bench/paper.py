@@ -42,14 +42,18 @@ FIGURE_6 = ("lotus", "dolphin", "bee", "butterfly")
 class Recovery:
     """What came back of a composed piece after drawing, tracing and decomposing it.
 
-    `truth_energy` is that of the known wires on the traced drawing, None where tracing joined or cut
-    lines otherwise than they were laid; `answer_energy` is that of the wires found.
+    `apart` counts the known wires that end where no other one does, `apart_recovered` those of them
+    that came back. `truth_energy` is that of the known wires on the traced drawing, None where tracing
+    joined or cut lines otherwise than they were laid; `answer_energy` is that of the wires found.
     """
 
     wires: int
     segments: int
     recovered: int
     found: int
+    apart: int
+    apart_recovered: int
+    fewest: int
     answer_energy: float
     truth_energy: float | None
 
@@ -81,11 +85,16 @@ def recover(piece: Composed, folder: Path) -> Recovery:
     found = [{step.segment for step in trail.traversals} for trail in solution.trails]
     mate = known_mate(drawing, piece, owners)
     energy = None if mate is None else energy_of(graph_of(drawing), mate, Weights()).total
+    back = {index for index, wire in enumerate(truth) if wire and wire in found}
+    apart = piece.wires_apart
     return Recovery(
         wires=len(piece.wires),
         segments=len(drawing.segments),
-        recovered=sum(bool(wire) and wire in found for wire in truth),
+        recovered=len(back),
         found=len(found),
+        apart=len(apart),
+        apart_recovered=len(apart & back),
+        fewest=fewest_wires(drawing),
         answer_energy=solution.energy.total,
         truth_energy=energy,
     )
@@ -172,10 +181,14 @@ def _figure_6() -> None:
 
 
 def _figure_5(pieces: int) -> None:
-    print(f"\nFigure 5: pieces laid of known wires, drawn in ink, traced and divided ({pieces} of each size)")
+    print(f"\nFigure 5: pieces laid of known wires, drawn in ink, traced, divided ({pieces} of each size).")
+    print("Where two known wires end at one point, the energy prefers one wire to the two: 'apart' is the")
+    print("share recovered of the wires that end where no other does. The rest counts pieces; 'fewest':")
+    print("those whose answer has the fewest wires possible.")
     print(
-        f"{'wires':>7}{'segments':>10}{'recovered':>11}{'traced as laid':>16}{'all recovered':>15}"
-        f"{'fewer wires':>13}{'as many, better':>17}{'as good':>9}{'worse':>7}{'E laid':>9}{'E found':>9}"
+        f"{'wires':>7}{'segments':>10}{'recovered':>11}{'apart':>7}{'traced as laid':>16}{'same':>6}"
+        f"{'fewer wires':>13}{'smoother':>10}{'as good':>9}{'worse':>7}{'fewest':>8}"
+        f"{'E laid':>9}{'E found':>9}"
     )
     for count in (5, 8, 12, 16):
         results = []
@@ -184,12 +197,14 @@ def _figure_5(pieces: int) -> None:
                 piece = compose(np.random.default_rng([count, number]), count)
                 results.append(recover(piece, Path(folder)))
         kinds = Counter(map(_compared, results))
+        recovered = sum(each.recovered for each in results) / (count * pieces)
+        apart = sum(each.apart_recovered for each in results) / sum(each.apart for each in results)
         known = [(each.truth_energy, each.answer_energy) for each in results if each.truth_energy is not None]
         laid, found = np.mean(known, axis=0)
         print(
-            f"{count:7}{np.mean([each.segments for each in results]):10.1f}"
-            f"{sum(each.recovered for each in results) / (count * pieces):11.0%}{len(known):16}"
-            f"{kinds['same']:15}{kinds['fewer']:13}{kinds['better']:17}{kinds['as good']:9}{kinds['worse']:7}"
+            f"{count:7}{np.mean([each.segments for each in results]):10.1f}{recovered:11.0%}{apart:7.0%}"
+            f"{len(known):16}{kinds['same']:6}{kinds['fewer']:13}{kinds['better']:10}{kinds['as good']:9}"
+            f"{kinds['worse']:7}{sum(each.found == each.fewest for each in results):8}"
             f"{laid:9.3f}{found:9.3f}",
             flush=True,
         )
