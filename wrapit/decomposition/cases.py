@@ -164,5 +164,4 @@ def _weak(graph: Graph, mate: Sequence[int]) -> Iterator[tuple[int, int]]:
     trails = trails_of(graph, mate)
     for trail, contacts in zip(trails, contacts_of(graph, trails), strict=True):
         if len(contacts) == 1:
-            first = trail.traversals[0]
-            yield 2 * first.segment + first.reversed, next(iter(contacts))
+            yield trail.traversals[0].departure, next(iter(contacts))

@@ -17,7 +17,8 @@ from typing import NamedTuple
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.local import ENUMERATED_DEGREE, LocalCosts, Matching, matchings_of
 from wrapit.decomposition.model import NO_MATE
-from wrapit.decomposition.spanning import GROUND, Link, Sets, by_share, cheapest_opening, spanning_tree
+from wrapit.decomposition.sets import Sets
+from wrapit.decomposition.spanning import GROUND, Link, by_share, cheapest_opening, spanning_tree
 
 
 class Certificate(NamedTuple):

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import Energy, Trail, Traversal, Weights
+from wrapit.decomposition.model import Energy, Trail, Weights
 from wrapit.decomposition.symmetry import asymmetry
 from wrapit.decomposition.trails import trails_of
 
@@ -43,7 +43,7 @@ def bends_of(graph: Graph, trail: Trail) -> list[float]:
     """Bend angle in radians at each junction that the trail passes."""
     angles = []
     for before, after in pairwise(trail.traversals):
-        (ax, ay), (bx, by) = graph.directions[_arrival(before)], graph.directions[_departure(after)]
+        (ax, ay), (bx, by) = graph.directions[before.arrival], graph.directions[after.departure]
         angles.append(math.pi - abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by)))
     return angles
 
@@ -69,12 +69,4 @@ def contacts_of(graph: Graph, trails: Sequence[Trail]) -> list[set[int]]:
 
 def junctions_of(graph: Graph, trail: Trail) -> set[int]:
     """The junctions that a trail visits, its ends included."""
-    return {graph.junction_of[h] for t in trail.traversals for h in (_departure(t), _arrival(t))}
-
-
-def _departure(traversal: Traversal) -> int:
-    return 2 * traversal.segment + traversal.reversed
-
-
-def _arrival(traversal: Traversal) -> int:
-    return _departure(traversal) ^ 1
+    return {graph.junction_of[h] for t in trail.traversals for h in (t.departure, t.arrival)}

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from wrapit.decomposition.sets import Sets
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 
@@ -106,26 +107,12 @@ def graph_of(drawing: Drawing) -> Graph:
 
 def pieces(graph: Graph, links: Iterable[tuple[int, int]] = ()) -> list[list[int]]:
     """Segments of each connected piece, in rising order; `links` tie further pairs of segments together."""
-    parent = list(range(graph.segments))
-
-    def root(e: int) -> int:
-        while parent[e] != e:
-            parent[e] = parent[parent[e]]
-            e = parent[e]
-        return e
-
-    def tie(e: int, f: int) -> None:
-        first, second = sorted((root(e), root(f)))
-        parent[second] = first
-
-    for ends in graph.incident:
-        for h in ends[1:]:
-            tie(ends[0] >> 1, h >> 1)
+    sets = Sets(tuple(h >> 1 for h in ends) for ends in graph.incident)
     for e, f in links:
-        tie(e, f)
+        sets.merge(e, f)
     groups: dict[int, list[int]] = {}
     for e in range(graph.segments):
-        groups.setdefault(root(e), []).append(e)
+        groups.setdefault(sets.find(e), []).append(e)
     return list(groups.values())
 
 

@@ -12,8 +12,8 @@ from functools import cache
 
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.rules import Pair
 
-Pair = tuple[int, int]
 Matching = tuple[Pair, ...]
 
 ENUMERATED_DEGREE = 8

@@ -17,6 +17,16 @@ class Traversal(NamedTuple):
     segment: int
     reversed: bool
 
+    @property
+    def departure(self) -> int:
+        """The half-edge at which the wire enters the segment."""
+        return 2 * self.segment + self.reversed
+
+    @property
+    def arrival(self) -> int:
+        """The half-edge at which the wire leaves the segment."""
+        return self.departure ^ 1
+
 
 @dataclass(frozen=True)
 class Trail:

@@ -103,4 +103,4 @@ def _turned(run: Run) -> Run:
 
 
 def _start(graph: Graph, traversal: Traversal) -> int:
-    return graph.junction_of[2 * traversal.segment + traversal.reversed]
+    return graph.junction_of[traversal.departure]

@@ -8,11 +8,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 from wrapit.decomposition.local import Matching
+from wrapit.decomposition.sets import Group, Sets
 
 GROUND = 0
 """The node that stands for everything with wire ends; rings count from 1."""
-
-Group = tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -44,41 +43,6 @@ class Branch(NamedTuple):
     u: int
     w: int
     link: Link
-
-
-class Sets:
-    """Disjoint sets, few and small."""
-
-    def __init__(self, groups: Iterable[Group] = ()) -> None:
-        self._parent: dict[int, int] = {}
-        for group in groups:
-            self.merge_all(group)
-
-    def merge(self, x: int, y: int) -> bool:
-        """Puts x and y into one set; says whether they were apart."""
-        x, y = self._root(x), self._root(y)
-        if x == y:
-            return False
-        self._parent[max(x, y)] = min(x, y)
-        return True
-
-    def merge_all(self, group: Group) -> int:
-        """Puts a group into one set; says how many mergers that took."""
-        return sum(self.merge(group[0], node) for node in group[1:])
-
-    def groups(self) -> tuple[Group, ...]:
-        """The sets with two members and more."""
-        groups: dict[int, list[int]] = {}
-        for x in sorted(self._parent):
-            groups.setdefault(self._root(x), []).append(x)
-        return tuple(tuple(group) for group in groups.values() if len(group) > 1)
-
-    def _root(self, x: int) -> int:
-        parent = self._parent
-        while (above := parent.setdefault(x, x)) != x:
-            parent[x] = parent[above]
-            x = above
-        return x
 
 
 def by_share(links: Iterable[Link]) -> list[Link]:
