@@ -239,6 +239,7 @@ def main(names: list[str] | None = None) -> None:
         if names and not any(name in path.stem or name == kind for name in names):
             continue
         scores = measure(path, truth, scorer)
+        scores["name"] = path.stem
         scores["sharp"] = any(flag.startswith("sharp") for flag in entry["flags"])
         rows.setdefault(kind, []).append(scores)
         if "refused" in scores:
@@ -250,6 +251,10 @@ def main(names: list[str] | None = None) -> None:
         peers += [] if peer is None else [peer]
     for kind, scores_of_kind in rows.items():
         print(_summary(kind, scores_of_kind))
+    originals = {row["name"].split("@")[0] for row in rows.get("degraded", [])}
+    same = [row for row in rows.get("clean", []) if row["name"] in originals]
+    if same:
+        print(_summary("originals", same) + " (the degraded ones before they were degraded)")
     print(f"autotrace -centerline: {sum(peers)} Béziers" if peers else "pyautotrace is not installed")
 
 

@@ -15,6 +15,11 @@ from wrapit.geometry import FloatArray, unit
 
 # In stroke widths.
 _ARM = 3.0
+# On noisy strokes models look farther, as long as they miss the points no more for it.
+_NOISY = 0.006
+_FARTHER = (4.5, 6.5)
+_SAME = 1.1
+_SLACK = 0.001
 _MARGIN = 0.1
 _SNAP_RAD = math.radians(20)
 PAIR_RAD = math.radians(40)
@@ -47,12 +52,33 @@ class Arm:
         count = max(3, int(np.searchsorted(self.along, reach, side="right")))
         return self.along[:count], self.points[:count]
 
-    @cached_property
+    @property
     def model(self) -> FloatArray:
         """Coefficients (3, 2) of a quadratic in the length from the cut (negative towards the junction)."""
-        along, points = self.near(_ARM * self.width_px)
-        degree = 2 if along[-1] > 1.2 * self.width_px else 1
-        return np.vstack([polynomial(along, points, degree), np.zeros((2 - degree, 2))])
+        return self._fit[0]
+
+    @property
+    def reach(self) -> float:
+        """How far the model looks; farther where the stroke is noisy and keeps its course."""
+        return self._fit[1]
+
+    @cached_property
+    def _fit(self) -> tuple[FloatArray, float]:
+        best, rms = (np.zeros((3, 2)), 0.0), np.inf
+        for share in (_ARM, *_FARTHER):
+            reach = share * self.width_px
+            along, points = self.near(reach)
+            if along[-1] <= 1.2 * self.width_px:
+                return np.vstack([polynomial(along, points, 1), np.zeros((1, 2))]), reach
+            a, b, c = model = polynomial(along, points, 2)
+            x = along[:, None]
+            missed = float(np.sqrt(((a + x * (b + x * c) - points) ** 2).sum() / len(points)))
+            if missed > _SAME * rms + _SLACK * self.width_px:
+                return best
+            best, rms = (model, reach), min(missed, rms)
+            if missed < _NOISY * self.width_px or along[-1] < 0.9 * reach:
+                return best
+        return best
 
     def at(self, along: float) -> tuple[FloatArray, FloatArray]:
         """Place and outward unit direction on the model."""
@@ -183,9 +209,8 @@ class Through:
 def through(a: Arm, b: Arm) -> Through:
     """The curve through two arms that continue each other."""
     gap = float(np.linalg.norm(b.points[0] - a.points[0]))
-    reach = max(_ARM * a.width_px, 0.6 * gap)
-    along_a, points_a = a.near(reach)
-    along_b, points_b = b.near(reach)
+    along_a, points_a = a.near(max(a.reach, 0.6 * gap))
+    along_b, points_b = b.near(max(b.reach, 0.6 * gap))
     shortest = min(along_a[-1], along_b[-1]) / a.width_px
     degree = 4 if shortest > 1.5 else 3 if shortest > 0.7 else 2
     along = np.concatenate([-along_a - gap / 2, along_b + gap / 2])

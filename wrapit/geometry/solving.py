@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from wrapit.geometry.arrays import FloatArray, IntArray
 
-_ITERATIONS = 5
+_ITERATIONS = 4
 _HOPELESS = 10.0
 Complex: TypeAlias = NDArray[np.complex128]
 
