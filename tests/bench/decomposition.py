@@ -19,7 +19,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from tests.bench.graphs import FAMILIES, all_even, composed, graph_text, random_multigraph
+from tests.bench.graphs import FAMILIES, all_even, composed, flowers, graph_text, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
 from tests.decomposition.test_wishes import obeys, some_rules, with_some_bridges
 from wrapit.config.decomposition import AnnealingConfig
@@ -52,15 +52,16 @@ def main() -> None:
 def _brute_force(count: int) -> None:
     print("\nagainst all matchings of graphs of up to 7 segments: loops, parallels, cut junctions, all-even")
     print(f"{'':24}{'graphs':>8}{'equal':>8}{'proven':>8}{'impossible':>12}")
-    for name, bridged, ruled, share in (
-        ("plain", False, False, 1.0),
-        ("with bridges", True, False, 0.5),
-        ("with constraints", False, True, 0.5),
-        ("with both", True, True, 0.5),
+    for name, small, bridged, ruled, share in (
+        ("plain", _small, False, False, 1.0),
+        ("rings on cut junctions", _small_cactus, False, False, 0.5),
+        ("with bridges", _small, True, False, 0.5),
+        ("with constraints", _small, False, True, 0.5),
+        ("with both", _small, True, True, 0.5),
     ):
         equal = proven = impossible = total = 0
         for seed in range(round(count * share)):
-            graph, rng = _small(seed)
+            graph, rng = small(seed)
             graph = with_some_bridges(graph, rng) if bridged else graph
             rules = some_rules(graph, rng) if ruled else NO_RULES
             best = best_by_trying(graph, WEIGHTS, lambda mate, g=graph, r=rules: obeys(g, r, mate))
@@ -85,6 +86,11 @@ def _small(seed: int) -> tuple[Graph, np.random.Generator]:
     junctions = int(rng.integers(3 if segments > 5 else 1, 8))
     graph = (all_even if seed % 3 == 0 else random_multigraph)(rng, segments, junctions)
     return graph.subgraph(max(pieces(graph), key=len)), rng
+
+
+def _small_cactus(seed: int) -> tuple[Graph, np.random.Generator]:
+    rng = np.random.default_rng(seed)
+    return flowers(rng, int(rng.integers(1, 7)), int(rng.integers(1, 4)), float(rng.uniform())), rng
 
 
 def _against_reference() -> None:

@@ -24,8 +24,9 @@ _WORK = 6_000  # segments × rounds of local reasoning, before integer programmi
 def certified(problem: Problem) -> Answer:
     """What local reasoning finds and proves, with no bridge in use and no rule but forbidden transitions.
 
-    Where it can't account for a wire that hangs, all cases are tried: that wire stays, or one of the
-    junctions that it runs through is passed in another way. Rules can only raise the energy, so the
+    Drawings whose rings share no segment are solved block by block. In others, where local reasoning
+    can't account for a wire that hangs, all cases are tried: that wire stays, or one of the junctions
+    that it runs through is passed in another way. Rules can only raise the energy, so the
     bound holds with them; bridges may lower it, so where there are any, there is no bound.
     """
     graph = problem.graph
