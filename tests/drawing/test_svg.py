@@ -170,3 +170,40 @@ def test_random_chords_of_a_circle_cross_where_geometry_says(tmp_path):
             inside = [(low < other % (2 * np.pi) < high) for other in pairs[j]]
             crossing += inside[0] != inside[1]
     assert degrees(drawing).count(4) == crossing
+
+
+RECTANGLE = f'<rect {STROKE} x="10" y="10" width="30" height="60"/>'
+
+
+@pytest.mark.parametrize(
+    ("body", "expected", "length_mm"),
+    [
+        (RECTANGLE + f'<rect {STROKE} x="40" y="10" width="30" height="60"/>', [2, 2, 2, 2, 3, 3], 300),
+        (RECTANGLE + f'<rect {STROKE} x="40" y="20" width="30" height="30"/>', [2] * 6 + [3, 3], 270),
+        (f'<rect {STROKE} x="40" y="20" width="30" height="30"/>' + RECTANGLE, [2] * 6 + [3, 3], 270),
+        (f'<path {STROKE} d="M10 10 H60"/><path {STROKE} d="M90 10 H40"/>', [1, 1], 80),
+        (2 * f'<circle {STROKE} cx="50" cy="50" r="30"/>', [2], 2 * math.pi * 30),
+    ],
+    ids=["whole edge", "part of an edge", "part first", "overlapping lines", "the same twice"],
+)
+def test_what_is_drawn_twice_counts_once_and_is_named(tmp_path, body, expected, length_mm):
+    drawing, findings = traced(tmp_path, body)
+    assert degrees(drawing) == expected
+    assert drawing.length_mm == pytest.approx(length_mm, rel=1e-3)
+    assert [finding.code for finding in findings] == ["drawn-twice"]
+    assert {removal.what for removal in drawing.removed} == {"double"}
+
+
+@pytest.mark.parametrize("rise", [4.2, 7.0, 20.0])
+def test_strokes_that_cross_at_an_acute_angle_are_not_drawn_twice(tmp_path, rise):
+    body = f'<path {STROKE} d="M10 50 H90"/><path {STROKE} d="M10 {50 - rise / 2} L90 {50 + rise / 2}"/>'
+    drawing, findings = traced(tmp_path, body)
+    assert degrees(drawing) == [1, 1, 1, 1, 4]
+    assert findings == ()
+
+
+def test_a_stroke_drawn_in_parts_is_one_segment(tmp_path):
+    drawing, _ = traced(tmp_path, f'<path {STROKE} d="M10 50 H50"/><path {STROKE} d="M90 50 H50"/>')
+    assert degrees(drawing) == [1, 1]
+    bent, _ = traced(tmp_path, f'<path {STROKE} d="M10 50 H50"/><path {STROKE} d="M50 90 V50"/>')
+    assert degrees(bent) == [1, 1, 2]

@@ -53,6 +53,7 @@ def planar(curves: list[Curve], reach: float, corner_rad: float) -> Planar:
         pieces += _pieces(each, own, nodes, reach)
     pieces = _without_doubles(pieces, 0.1 * reach)
     pieces, stubs = _without_stubs(pieces, _STUB * reach)
+    pieces = _rejoined(pieces, corner_rad)
     return Planar(nodes.places(), pieces, stubs)
 
 
@@ -130,19 +131,19 @@ def _pieces(curve: Curve, marks: list[tuple[float, FloatArray]], nodes: _Nodes, 
     places = nodes.places()
     pieces = []
     for (start, first), (end, last) in itertools.pairwise(kept):
-        cubics = _stretch(curve, start, end)
+        cubics = stretch(curve, start, end)
         if cubics is None:
             continue
-        pieces.append(Piece(first, last, _moved(cubics, places[first], places[last])))
+        pieces.append(Piece(first, last, moved(cubics, places[first], places[last])))
     return pieces
 
 
 def _far(curve: Curve, start: float, end: float, reach: float) -> bool:
-    cubics = _stretch(curve, start, end)
+    cubics = stretch(curve, start, end)
     return cubics is not None and BezierChain(cubics).length > reach
 
 
-def _stretch(curve: Curve, start: float, end: float) -> FloatArray | None:
+def stretch(curve: Curve, start: float, end: float) -> FloatArray | None:
     """The cubics between two parameters; beyond the end a closed curve goes round."""
     count = len(curve.cubics)
     parts = []
@@ -164,7 +165,7 @@ def _stretch(curve: Curve, start: float, end: float) -> FloatArray | None:
     return cubics
 
 
-def _moved(cubics: FloatArray, start: FloatArray, end: FloatArray) -> BezierChain:
+def moved(cubics: FloatArray, start: FloatArray, end: FloatArray) -> BezierChain:
     """The cubics with their ends moved exactly onto places, each handle along with its end."""
     moved = cubics.copy()
     moved[0, 1] += start - moved[0, 0]
@@ -225,3 +226,34 @@ def _without_stubs(pieces: list[Piece], reach: float) -> tuple[list[Piece], list
         if len(rest) == len(pieces):
             return pieces, stubs
         pieces = rest
+
+
+def _rejoined(pieces: list[Piece], corner_rad: float) -> list[Piece]:
+    """One piece in place of two that meet smoothly where nothing else does: one stroke drawn in parts."""
+    pieces = list(pieces)
+    at: dict[int, list[int]] = {}
+    for index, piece in enumerate(pieces):
+        for node in (piece.start, piece.end):
+            at.setdefault(node, []).append(index)
+    gone: set[int] = set()
+    for node, ends in at.items():
+        if len(ends) != 2 or ends[0] == ends[1]:
+            continue
+        first, second = sorted(ends)
+        before, after = _towards(pieces[first], node), _from(pieces[second], node)
+        if np.arccos(np.clip(before.curve.end_tangent @ after.curve.start_tangent, -1, 1)) > corner_rad:
+            continue
+        cubics = np.concatenate([before.curve.points, after.curve.points])
+        pieces[first] = Piece(before.start, after.end, BezierChain(cubics), before.kind)
+        gone.add(second)
+        # The far end of the second now belongs to the first.
+        at[after.end] = [first if index == second else index for index in at[after.end]]
+    return [piece for index, piece in enumerate(pieces) if index not in gone]
+
+
+def _towards(piece: Piece, node: int) -> Piece:
+    return piece if piece.end == node else Piece(piece.end, piece.start, piece.curve.reversed(), piece.kind)
+
+
+def _from(piece: Piece, node: int) -> Piece:
+    return piece if piece.start == node else Piece(piece.end, piece.start, piece.curve.reversed(), piece.kind)

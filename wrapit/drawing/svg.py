@@ -8,6 +8,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import assemble, placement
+from wrapit.drawing.coincident import without_coincident
 from wrapit.drawing.components import connect
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change
@@ -20,6 +21,8 @@ from wrapit.geometry import FloatArray
 _REACH = 0.95
 # Without any stroke width: this share of the drawing's size.
 _REACH_SHARE = 2e-3
+# However broad the strokes are, no end farther away than this share of the size is meant.
+_MOST = 0.04
 
 
 def trace_svg(
@@ -35,10 +38,12 @@ def trace_svg(
     if size <= 0:
         raise DrawingError("the lines have no length", str(path), "draw at least one line")
     reach = _REACH * strokes.width_px if strokes.width_px else _REACH_SHARE * size
-    graph = planar(strokes.curves, min(reach, 0.02 * size), tracing.corner_angle)
+    curves, doubles = without_coincident(strokes.curves, min(reach, _MOST * size) / _REACH)
+    graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle)
     if not graph.pieces:
         raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
     changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]
+    changes += [Change("double", _pair(at), length, "drawn twice, taken once") for at, length in doubles]
     connected = connect(graph.places, graph.pieces, tracing.components, 0.25 * size)
     where = placement(
         [piece.curve for piece in connected.pieces], size_mm, flip=True, scale=strokes.mm_per_px
@@ -56,6 +61,17 @@ def trace_svg(
         x, y = where.points(np.array(notice.at_px))
         place = f"at ({notice.at_px[0]:.1f}, {notice.at_px[1]:.1f}) px, ({x:.1f}, {y:.1f}) mm"
         findings.append(Finding(notice.level, notice.code, place, notice.message, notice.remedy))
+    if doubles:
+        length = where.scale * sum(length for _, length in doubles)
+        findings.append(
+            Finding(
+                "note",
+                "drawn-twice",
+                "drawing",
+                f"{len(doubles)} stretches ({length:.1f} mm) are drawn twice, as where two shapes share an "
+                "edge; each is taken once",
+            )
+        )
     if strokes.filled:
         findings.append(
             Finding(
