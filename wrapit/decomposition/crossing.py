@@ -21,8 +21,8 @@ from wrapit.decomposition.offers import Offers
 from wrapit.decomposition.options import ENOUGH, Option, useful
 from wrapit.decomposition.passages import passage, passages
 
-_ROUNDING = 1e-12
-_LISTED_ENDS = 6
+_ROUNDING = 1e-12  # of costs: what differs by less is equal
+_LISTED_ENDS = 6  # up to here all matchings are tried: 76 of them
 _MOST_ENDS = 18  # the tables have a column for each subset of them
 
 
