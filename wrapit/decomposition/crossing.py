@@ -66,8 +66,6 @@ def options_at(
     ends = (*doors, *(h for branch in branches for h in branch.doors))
     if len(ends) > _MOST_ENDS:
         raise OutOfWorkError
-    place = {h: i for i, h in enumerate(ends)}
-    below = [{place[b]: cost for b, cost in pair[a].items() if place[b] < i} for i, a in enumerate(ends)]
     sizes = tuple(len(branch.doors) for branch in branches)
     offers = Offers(ends, len(doors), weak_cost)
     modes = modes_of(branches, weak_cost)
@@ -76,10 +74,15 @@ def options_at(
             for wires, matchings in passages(len(doors), sizes, mode.through):
                 work.spend(1)
                 cost, pairs = min(
-                    [(sum([below[j].get(i, math.inf) for i, j in pairs]), pairs) for pairs in matchings]
+                    [
+                        (sum([pair[ends[i]].get(ends[j], math.inf) for i, j in pairs]), pairs)
+                        for pairs in matchings
+                    ]
                 )
                 offers.take(mode, wires, mode.cost + cost, pairs)
     else:
+        place = {h: i for i, h in enumerate(ends)}
+        below = [{place[b]: cost for b, cost in pair[a].items() if place[b] < i} for i, a in enumerate(ends)]
         _Search(len(doors), sizes, modes, below, weak_cost, offers).run(work)
     return offers.useful()
 
@@ -117,11 +120,13 @@ class _State(NamedTuple):
 
 
 class _Wanted(NamedTuple):
-    """A pattern that may give something new in some mode: how many loose ends it needs, what the wires
-    closed in there cost if all but as many as can be spared are weak, and what it is worth."""
+    """Options that may be of use, with a pattern in some mode: how many loose ends they need, how much
+    they cost besides transitions (`more`), or how much if all wires that no branch spares that are weak
+    (`weak`, with half a weak wire for each loose end), and below which cost they are of use."""
 
     alone: bool
     ends: int
+    more: float
     weak: float
     worth: float
 
@@ -191,33 +196,34 @@ class _Search:
         if number not in self._wanted:
             self._wanted[number] = list(self._still_wanted(number))
         least, tables = math.inf, self._tables
-        for alone, ends, weak, worth in self._wanted[number]:
+        for alone, ends, more, weak, worth in self._wanted[number]:
             missing = ends - loose
             if alone and missing < 0:
                 continue
-            more = tables[missing if missing > 0 else 0][left]
+            bound = cost + more + tables[missing if missing > 0 else 0][left]
             if not alone:
-                more = max(more, weak + self._weak_cost / 2 * loose + tables[-1][left])
-            if cost + more < min(worth, least):
-                least = cost + more
+                bound = max(bound, cost + weak + self._weak_cost / 2 * loose + tables[-1][left])
+            if bound < worth and bound < least:
+                least = bound
         return least
 
     def _still_wanted(self, number: int) -> Iterator[_Wanted]:
         mode, limits = self._modes[number], self._offers.limits
         for through, alone, ends, owners in _PATTERNS[self._doors]:
-            if not self._doors:
-                worth = limits[False, ENOUGH]
-            elif alone:
-                worth = max(limits[through, n] - more for n, more in mode.contacts.items())
+            missing = ends - mode.ends
+            weak = self._weak_cost * ((mode.ends + self._doors) / 2 - owners) - mode.spared
+            if alone:
+                if (number, through) not in self._passed:
+                    kinds = mode.contacts.items() if self._doors else [(ENOUGH, 0.0)]
+                    worth = max(limits[through, n] - more for n, more in kinds)
+                    yield _Wanted(True, missing, 0.0, 0.0, worth - _ROUNDING)
+            elif not self._doors:
+                yield _Wanted(False, missing, 0.0, weak, limits[through, ENOUGH] - _ROUNDING)
             else:
-                worth = limits[through, 1]
-                if mode.enough < math.inf:
-                    worth = max(worth, limits[through, ENOUGH] - mode.enough)
-            if not (alone and (number, through) in self._passed):
-                closed = (mode.ends + self._doors) / 2 - owners
-                yield _Wanted(
-                    alone, ends - mode.ends, self._weak_cost * closed - mode.spared, worth - _ROUNDING
-                )
+                yield _Wanted(False, missing, 0.0, weak, limits[through, 1] - _ROUNDING)
+                # Here the wires at the doors, taken as one, need a branch that spares them too.
+                weak += self._weak_cost
+                yield _Wanted(False, missing, mode.enough, weak, limits[through, ENOUGH] - _ROUNDING)
 
     def _look(self, state: _State) -> None:
         mode = self._modes[state.mode]

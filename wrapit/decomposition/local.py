@@ -54,15 +54,12 @@ class LocalCosts:
         self._allowed = allowed or {}
         graph, weights = problem.graph, problem.weights
         self.incident = graph.incident
-        forbidden = problem.rules.forbidden
         self.pair = [
-            {
-                b: weights.smoothness * bend - 1.0
-                for b, bend in bends.items()
-                if (min(a, b), max(a, b)) not in forbidden
-            }
-            for a, bends in enumerate(graph.bends_rad)
+            {b: weights.smoothness * bend - 1.0 for b, bend in bends.items()} for bends in graph.bends_rad
         ]
+        for a, b in problem.rules.forbidden:
+            self.pair[a].pop(b, None)
+            self.pair[b].pop(a, None)
         self.free = [0.0] * (2 * graph.segments)
         self.loose: dict[int, tuple[int, float]] = {}
         self._junction_of = graph.junction_of

@@ -11,6 +11,12 @@ from wrapit.decomposition.modes import Mode
 from wrapit.decomposition.options import ENOUGH, Kind, Option, surcharges, useful
 from wrapit.decomposition.passages import Passage
 
+_KINDS: tuple[tuple[Kind, ...], ...] = (
+    ((False, ENOUGH),),
+    tuple(product((False,), range(ENOUGH + 1))),
+    tuple(product((False, True), range(ENOUGH + 1))),
+)
+
 
 class Offers:
     """The cheapest option of each kind at one junction so far.
@@ -22,8 +28,7 @@ class Offers:
     def __init__(self, ends: Sequence[int], doors: int, weak_cost: float) -> None:
         self._ends, self._doors, self._weak_cost = ends, doors, weak_cost
         self._found: dict[Kind, tuple[float, Matching, Sequence[Option]]] = {}
-        kinds = product((False, True)[:doors], range(ENOUGH + 1)) if doors else [(False, ENOUGH)]
-        self.limits: dict[Kind, float] = dict.fromkeys(kinds, math.inf)
+        self.limits: dict[Kind, float] = dict.fromkeys(_KINDS[doors], math.inf)
         self._most = math.inf  # of these limits
 
     def useful(self) -> list[Option]:
