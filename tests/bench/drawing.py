@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.bench.peer import autotraced
 from tests.drawing.generated import random_curve, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
@@ -175,16 +176,17 @@ def plain_beziers(path: Path) -> int:
     return sum(len(chain) for chain in fit_all(strokes, 0.04 * skeleton.width_px))
 
 
-def autotraced(path: Path) -> int | None:
-    """Béziers of `autotrace -centerline`, where pyautotrace is installed."""
-    try:
-        from autotrace import Bitmap  # type: ignore[import-not-found]
-    except ImportError:
+def peer_scores(path: Path, truth: dict[str, Any], scorer: Any) -> dict[str, Any] | None:
+    """The same measures of `autotrace -centerline`; None where pyautotrace isn't installed."""
+    begin = time.process_time()
+    traced = autotraced(path, float(truth["stroke_px"]))
+    if traced is None:
         return None
-    from PIL import Image
-
-    vector = Bitmap(np.asarray(Image.open(path).convert("RGB"))).trace(centerline=True)
-    return sum(len(p.splines) for p in vector.paths)
+    taken_s = time.process_time() - begin
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        scores = dict(scorer.evaluate(traced[0], truth))
+    return scores | {"beziers": traced[1], "time_ratio": taken_s / skeleton_time_s(path)}
 
 
 # Linux keeps the peak of the parent in `ru_maxrss`; that of the process itself is in its status.
@@ -234,7 +236,7 @@ def main(names: list[str] | None = None) -> None:
     scorer = evaluator()
     print(f"{'':34}" + "".join(f"{title:>8}" for title, _ in COLUMNS))
     rows: dict[str, list[dict[str, Any]]] = {}
-    peers: list[int] = []
+    peers: dict[str, list[dict[str, Any]]] = {}
     for kind, path, truth, entry in [*pictures(), *own_pictures()]:
         if names and not any(name in path.stem or name == kind for name in names):
             continue
@@ -247,15 +249,17 @@ def main(names: list[str] | None = None) -> None:
             continue
         print(f"{path.stem:34}" + "".join(f"{_cell(scores[key]):>8}" for _, key in COLUMNS))
         scores["plain"] = plain_beziers(path)
-        peer = autotraced(path)
-        peers += [] if peer is None else [peer]
+        if (peer := peer_scores(path, truth, scorer)) is not None:
+            peers.setdefault(kind, []).append(peer | {key: scores[key] for key in ("sharp", "plain")})
     for kind, scores_of_kind in rows.items():
         print(_summary(kind, scores_of_kind))
     originals = {row["name"].split("@")[0] for row in rows.get("degraded", [])}
     same = [row for row in rows.get("clean", []) if row["name"] in originals]
     if same:
         print(_summary("originals", same) + " (the degraded ones before they were degraded)")
-    print(f"autotrace -centerline: {sum(peers)} Béziers" if peers else "pyautotrace is not installed")
+    print("\nthe peer, autotrace -centerline" if peers else "the peer is not here: pip install pyautotrace")
+    for kind, scores_of_kind in peers.items():
+        print(_summary(kind, scores_of_kind))
 
 
 def _cell(value: Any) -> str:
