@@ -19,13 +19,14 @@ from wrapit.drawing.components import Connected, connect
 from wrapit.drawing.corners import open_tips, split_corners
 from wrapit.drawing.crossings import join_crossings
 from wrapit.drawing.ends import place_end
+from wrapit.drawing.frames import drop_frames
 from wrapit.drawing.ink import Ink
-from wrapit.drawing.inspection import refuse_loose_strokes, refuse_other_pictures
+from wrapit.drawing.inspection import is_ruled, refuse_loose_strokes, refuse_other_pictures
 from wrapit.drawing.joining import close_gaps, drop_short
 from wrapit.drawing.junctions import Arm, Ending, arms_at, kinked, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
-from wrapit.drawing.picture import Picture, read_picture
+from wrapit.drawing.picture import Picture, read_on_ruled_paper, read_picture
 from wrapit.drawing.pinholes import without_pinholes
 from wrapit.drawing.skeleton import network, thin_within
 from wrapit.errors import Finding
@@ -39,6 +40,34 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     Raises DrawingError where the picture can't be read or is no line drawing.
     """
     picture = read_picture(path, tracing)
+    if not is_ruled(picture.ink.mask):
+        return _traced(picture, path, tracing, size_mm)
+    darker = read_on_ruled_paper(path, tracing)
+    drawing, findings = _traced(darker or picture, path, tracing, size_mm)
+    return drawing, (_about_ruling(darker is not None), *findings)
+
+
+def _about_ruling(left_out: bool) -> Finding:
+    if left_out:
+        return Finding(
+            "warning",
+            "ruled-paper",
+            "drawing",
+            "only the darkest lines were traced; paler ones that rule the paper are left out",
+            "draw on plain paper if lines are missing",
+        )
+    return Finding(
+        "warning",
+        "ruled-paper",
+        "drawing",
+        "straight lines run across the whole picture and were traced as part of the drawing",
+        "draw on plain paper, or with a pen much darker than the ruling, if they are not meant",
+    )
+
+
+def _traced(
+    picture: Picture, path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
     ink, skeleton = picture.ink, picture.skeleton
     width_px = skeleton.width_px
     net = network(skeleton.pixels, skeleton.pairs)
@@ -53,6 +82,7 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
     contract_short(net, radius, 0.35)
     tidy(net, radius, width_px)
     drop_crumbs(net, width_px)
+    drop_frames(net, width_px)
     refuse_loose_strokes(net, str(path))
     lines = centre_lines(net, ink, width_px)
     open_tips(net, lines, width_px)

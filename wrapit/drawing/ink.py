@@ -13,6 +13,9 @@ from wrapit.errors import DrawingError
 # Paper that varies by more than this share of the contrast is divided by its background.
 _SHADED = 0.12
 _BLOCK_PX = 16
+# Two kinds of ink are this far apart, and each is this share of it at least.
+_TWO_INKS = 50
+_LEAST_SHARE = 0.08
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +59,23 @@ def find_ink(grey: GreyImage, where: str) -> Ink:
         )
     half = (ink + paper) / 2
     return Ink(grey < half, grey, float(paper), float(ink), shaded, histogram)
+
+
+def darker_ink(ink: Ink) -> GreyImage | None:
+    """The picture with the paler of two kinds of ink as paper; nothing where the ink is of one kind."""
+    dark_side = ink.histogram.copy()
+    dark_side[int(ink.half) :] = 0
+    if np.count_nonzero(dark_side) < 2:
+        return None
+    limit = _otsu(dark_side)
+    share = dark_side[:limit].sum() / dark_side.sum()
+    if not _LEAST_SHARE < share < 1 - _LEAST_SHARE:
+        return None
+    dark, pale = _medians(dark_side, limit)
+    if pale - dark < _TWO_INKS:
+        return None
+    levels = np.clip((np.arange(256) - dark) * (255.0 / (limit - dark)), 0, 255).astype(np.uint8)
+    return levels[ink.grey]
 
 
 def separability(ink: Ink) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.drawing.cleanup import components
 from wrapit.drawing.ink import Ink, separability
@@ -23,6 +24,9 @@ _LONGEST = 3.0
 _PIECES = 40
 _LOOSE = 15
 _MAIN_SHARE = 0.2
+_STRIPS = 8
+_RULED_SHARE = 0.6
+_RULED_LINES = 5
 
 
 def refuse_crowd(ink: Ink, skeleton: Skeleton, where: str) -> None:
@@ -61,6 +65,12 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str
             "the picture holds only dots and short strokes, no lines", where, "connect them with a pen"
         )
     fat = fat_share(ink, skeleton)
+    if (ninety > _FAT_WIDTH * middle or fat > _FAT_AREA) and is_ruled(ink.mask):
+        raise DrawingError(
+            "the paper is ruled or squared, in lines as dark as the drawing",
+            where,
+            "draw on plain paper, or with a pen much darker than the ruling",
+        )
     if ninety > _FAT_WIDTH * middle or fat > _FAT_AREA:
         raise _filled(where, f"{100 * fat:.0f} % of the ink is much thicker than the lines")
     if ink.mask.mean() > _INK_SHARE:
@@ -79,6 +89,17 @@ def refuse_loose_strokes(net: Network, where: str) -> None:
             where,
             "draw one connected figure",
         )
+
+
+def is_ruled(mask: NDArray[np.bool_]) -> bool:
+    """Whether at least five lines run straight across the whole picture, which may lie a little askew."""
+    for picture in (mask, mask.T):
+        strips = np.array_split(picture[:, ::4], _STRIPS, axis=1)
+        full = np.array([strip.mean(axis=1) > _RULED_SHARE for strip in strips])
+        lines = (np.diff(full.astype(np.int8), axis=1) > 0).sum(axis=1)
+        if lines.min() >= _RULED_LINES:
+            return True
+    return False
 
 
 def midtones(ink: Ink) -> float:

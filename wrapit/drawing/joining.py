@@ -55,7 +55,7 @@ def close_gaps(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) 
         place, ending = place_end(arm(lines[strand], strand, end, width_px), ink)
         tips[node] = (place, -ending.tangent)
     for _, one, other in _facing(tips, width_px):
-        if net.degree(one) == 1 and net.degree(other) == 1:
+        if {one, other} <= net.nodes.keys() and net.degree(one) == net.degree(other) == 1:
             middle = (tips[one][0] + tips[other][0]) / 2
             gap = float(np.linalg.norm(tips[one][0] - tips[other][0])) - width_px
             net.note("gap", middle, max(gap, 0.0), "two ends nearly touch: closed")

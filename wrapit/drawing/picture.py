@@ -9,8 +9,8 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.image import GreyImage, count_levels, load_grey
-from wrapit.drawing.ink import Ink, find_ink
-from wrapit.drawing.inspection import refuse_crowd
+from wrapit.drawing.ink import Ink, darker_ink, find_ink
+from wrapit.drawing.inspection import is_ruled, refuse_crowd
 from wrapit.drawing.skeleton import Skeleton, thin_within
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
@@ -43,6 +43,21 @@ def read_picture(path: Path, tracing: TracingConfig) -> Picture:
     Raises DrawingError where it can't be read, has no ink, or is noise.
     """
     grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    return _picture(grey, light_on_dark, path, tracing)
+
+
+def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
+    """The picture without the paler lines that rule the paper, or nothing where there are no such.
+
+    Raises DrawingError as `read_picture`.
+    """
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    found = find_ink(grey, str(path))
+    darker = darker_ink(found) if is_ruled(found.mask) else None
+    return None if darker is None else _picture(darker, light_on_dark, path, tracing)
+
+
+def _picture(grey: GreyImage, light_on_dark: bool, path: Path, tracing: TracingConfig) -> Picture:
     found, factor = find_ink(grey, str(path)), 1.0
     times = _reduction(found)
     if times > 1:

@@ -9,6 +9,7 @@ a smooth function, and the choice is kept that explains the ribbon's width best.
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from wrapit.drawing.courses import LONGEST_FLAT, Course, course_of, even, longes
 from wrapit.drawing.ink import Ink
 from wrapit.drawing.junctions import Arm, arm
 from wrapit.drawing.network import Network
+from wrapit.drawing.polynomials import angle
 from wrapit.geometry import FloatArray, IntArray, unit
 
 # In stroke widths.
@@ -37,6 +39,8 @@ _MOST_WAISTS = 6
 _WIDEST = 1.6
 _ALONE = 0.6
 _TOUCH = 0.15
+_ALIKE = 1.4
+_ONWARD_RAD = math.radians(60)
 _BRIDGED = 0.35
 _BEYOND = 2.0
 _BEYOND_APART = 1.7
@@ -93,7 +97,9 @@ def _explained(
         return None
     # Seen from the other end, left is right.
     tails = tails[1], tails[0]
-    usual = _usual_width(lines, [*heads, *tails], width_px)
+    widths = _widths(lines, [*heads, *tails], width_px)
+    known_widths = np.concatenate(widths)
+    usual = float(np.median(known_widths)) if len(known_widths) >= 6 else width_px
     before, after = (_between(pair_, usual) for pair_ in (heads, tails))
     axis = even([before[::-1], course.points, after], usual)
     along = lengths(axis)
@@ -109,7 +115,8 @@ def _explained(
     found = _swaps(gap / usual, known, step / usual)
     if found is None:
         return None
-    if not found[0] and gap.min() < _TOUCH * usual:
+    touching = gap.min() > _TOUCH * usual and _may_touch(widths, [*heads, *tails], course)
+    if not found[0] and not touching:
         return None
     swaps = [int(np.clip(at, core.start + 1, core.stop - 2)) - core.start for at in found[0]]
     if len(set(swaps)) < len(found[0]):
@@ -176,16 +183,25 @@ def _sides(
     return (arms[0], arms[1]) if across > 0 else (arms[1], arms[0])
 
 
-def _usual_width(lines: dict[int, Line], arms: list[Arm], width_px: float) -> float:
-    """The width of the strokes just outside the ribbon."""
+def _widths(lines: dict[int, Line], arms: list[Arm], width_px: float) -> list[FloatArray]:
+    """The widths of the strokes just outside the ribbon, where they are known."""
     widths = []
     for each in arms:
         line = lines[each.strand]
         away = line.along if each.end == 0 else line.length - line.along
         near = line.clean & (away < 8 * width_px) & np.isfinite(line.width)
         widths.append(line.width[near])
-    near = np.concatenate(widths)
-    return float(np.median(near)) if len(near) >= 6 else width_px
+    return widths
+
+
+def _may_touch(widths: list[FloatArray], arms: list[Arm], course: Course) -> bool:
+    """Whether a ribbon may be two strokes side by side, not one broad stroke between forks of others."""
+    if min(map(len, widths)) < 6:
+        return False
+    each = [float(np.median(width)) for width in widths]
+    ways = [course.points[0] - course.points[-1]] * 2 + [course.points[-1] - course.points[0]] * 2
+    straight = all(angle(arm.at(0.0)[1], way) < _ONWARD_RAD for arm, way in zip(arms, ways, strict=True))
+    return max(each) < _ALIKE * min(each) and straight
 
 
 def _secant(side: FloatArray, step: float, sigma: float) -> FloatArray:
