@@ -13,6 +13,11 @@ from wrapit.decomposition.sets import Sets
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 
+# Headings are whole multiples of this. Mirror images, and pairings of the same ends that cross or nest, then
+# bend by exactly the same, and no choice between them hangs on the last bit that some machine computes.
+_GRAIN_RAD = 2.0**-33
+_HALF_TURN = round(math.pi / _GRAIN_RAD)
+
 
 @dataclass(frozen=True, eq=False)
 class Graph:
@@ -69,9 +74,9 @@ class Graph:
             ],
             dtype=np.int64,
         ).reshape(-1, 2)
-        first, second = self.tangents[pairs[:, 0]], self.tangents[pairs[:, 1]]
-        cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-        angles = math.pi - np.abs(np.arctan2(cross, np.sum(first * second, axis=1)))
+        headings = np.round(np.arctan2(self.tangents[:, 1], self.tangents[:, 0]) / _GRAIN_RAD)
+        apart = np.abs(headings[pairs[:, 0]] - headings[pairs[:, 1]])
+        angles = (_HALF_TURN - np.minimum(apart, 2 * _HALF_TURN - apart)) * _GRAIN_RAD
         bends: tuple[dict[int, float], ...] = tuple({} for _ in self.junction_of)
         for (a, b), angle in zip(pairs.tolist(), angles.tolist(), strict=True):
             bends[a][b] = bends[b][a] = angle
