@@ -120,3 +120,19 @@ def test_a_broad_stroke_among_thin_ones_is_not_taken_for_two(tmp_path):
     drawing, findings = traced(tmp_path, grey)
     assert degrees(drawing) == [1] * 10 + [4] * 4
     assert "touching" not in {finding.code for finding in findings}
+
+
+@pytest.mark.parametrize("sides", ["all around", "left and below"])
+def test_the_table_around_photographed_paper_is_left_out_and_named(tmp_path, sides):
+    table = np.full((SIZE_PX + 200, SIZE_PX + 200), 60.0)
+    table[100:-100, 100:-100] = page()
+    photo = table if sides == "all around" else table[100:, :-100]
+    drawing, findings = traced(tmp_path, gaussian_filter(photo, 1.0))
+    assert degrees(drawing) == [4] * 4
+    assert [finding.code for finding in findings] == ["dark-table"]
+
+
+def test_chalk_on_a_board_is_no_paper_on_a_table(tmp_path):
+    drawing, findings = traced(tmp_path, 255 - page())
+    assert degrees(drawing) == [4] * 4
+    assert [finding.code for finding in findings] == ["light-on-dark"]

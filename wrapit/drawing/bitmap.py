@@ -26,10 +26,10 @@ from wrapit.drawing.joining import close_gaps, drop_short
 from wrapit.drawing.junctions import Arm, Ending, arms_at, kinked, pair, place
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change, Network, Notice
-from wrapit.drawing.picture import Picture, read_on_ruled_paper, read_picture
+from wrapit.drawing.picture import Picture, read_on_ruled_paper, read_on_table, read_picture
 from wrapit.drawing.pinholes import without_pinholes
 from wrapit.drawing.skeleton import network, thin_within
-from wrapit.errors import Finding
+from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, unit
 from wrapit.geometry.fitting import Stroke, fit_all
 
@@ -39,6 +39,30 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
 
     Raises DrawingError where the picture can't be read or is no line drawing.
     """
+    try:
+        return _read_and_traced(path, tracing, size_mm)
+    except DrawingError as refused:
+        found = _traced_on_table(path, tracing, size_mm)
+        if found is None:
+            raise refused from None
+        return found
+
+
+def _traced_on_table(
+    path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]] | None:
+    """The drawing in a photo that shows dark ground around the paper; nothing where it is no such."""
+    try:
+        picture = read_on_table(path, tracing)
+        return None if picture is None else _traced(picture, path, tracing, size_mm)
+    except DrawingError:
+        # The first reason tells the maker more.
+        return None
+
+
+def _read_and_traced(
+    path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
     picture = read_picture(path, tracing)
     if not is_ruled(picture.ink.mask):
         return _traced(picture, path, tracing, size_mm)
@@ -137,6 +161,10 @@ def _about(picture: Picture) -> list[Finding]:
     width_px = picture.skeleton.width_px * picture.factor
     if picture.light_on_dark:
         findings.append(Finding("note", "light-on-dark", "drawing", "light lines on dark ground were traced"))
+    if picture.on_table:
+        findings.append(
+            Finding("note", "dark-table", "drawing", "the dark ground around the paper is left out")
+        )
     if picture.ink.shaded:
         findings.append(
             Finding("note", "uneven-paper", "drawing", "the paper is unevenly lit; its shade was divided out")

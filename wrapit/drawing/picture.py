@@ -12,6 +12,7 @@ from wrapit.drawing.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.ink import Ink, darker_ink, find_ink
 from wrapit.drawing.inspection import is_ruled, refuse_crowd
 from wrapit.drawing.skeleton import Skeleton, thin_within
+from wrapit.drawing.table import without_table
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
@@ -31,6 +32,7 @@ class Picture:
     skeleton: Skeleton
     factor: float
     light_on_dark: bool
+    on_table: bool
 
     def source(self, points: FloatArray) -> FloatArray:
         """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""
@@ -43,7 +45,17 @@ def read_picture(path: Path, tracing: TracingConfig) -> Picture:
     Raises DrawingError where it can't be read, has no ink, or is noise.
     """
     grey, light_on_dark = load_grey(path, tracing.pixel_limit)
-    return _picture(grey, light_on_dark, path, tracing)
+    return replace(_picture(grey, path, tracing), light_on_dark=light_on_dark)
+
+
+def read_on_table(path: Path, tracing: TracingConfig) -> Picture | None:
+    """The picture without the dark ground around its paper, or nothing where there is none.
+
+    Raises DrawingError as `read_picture`.
+    """
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    paper = without_table(255 - grey if light_on_dark else grey)
+    return None if paper is None else replace(_picture(paper, path, tracing), on_table=True)
 
 
 def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
@@ -54,10 +66,10 @@ def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
     grey, light_on_dark = load_grey(path, tracing.pixel_limit)
     found = find_ink(grey, str(path))
     darker = darker_ink(found) if is_ruled(found.mask) else None
-    return None if darker is None else _picture(darker, light_on_dark, path, tracing)
+    return None if darker is None else replace(_picture(darker, path, tracing), light_on_dark=light_on_dark)
 
 
-def _picture(grey: GreyImage, light_on_dark: bool, path: Path, tracing: TracingConfig) -> Picture:
+def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
     found, factor = find_ink(grey, str(path)), 1.0
     times = _reduction(found)
     if times > 1:
@@ -71,7 +83,7 @@ def _picture(grey: GreyImage, light_on_dark: bool, path: Path, tracing: TracingC
         if times > 1:
             ink = _inked(find_ink(_enlarged(grey, times), str(path)), tracing)
             skeleton, factor = _skeleton(ink, path), factor / times
-    return Picture(ink, skeleton, factor, light_on_dark)
+    return Picture(ink, skeleton, factor, light_on_dark=False, on_table=False)
 
 
 def _skeleton(ink: Ink, path: Path) -> Skeleton:
