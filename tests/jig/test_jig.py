@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from wrapit.geometry.polygons import polygon_of, region_area_mm2
 from wrapit.jig.course import Course
 from wrapit.jig.faces import plain_finding, wall_face
 from wrapit.jig.plan import plan_jig
+from wrapit.jig.split import fewest_groups
 from wrapit.jig.stage import build_jig
 from wrapit.jig.support import stretch_support, support_by_wire, total_support
 
@@ -253,3 +255,30 @@ def test_a_wire_with_nothing_to_hold_makes_way() -> None:
     assert {finding.code: finding.where for finding in findings} == {"no-jig": "wire-02"}
     (only_one,) = build_jig(wires_of([straight_wire]), config())[0].jigs
     assert only_one.wires == ("wire-01",)
+
+
+def _partitions(members: list[int]) -> Iterator[list[list[int]]]:
+    if not members:
+        yield []
+        return
+    first, rest = members[0], members[1:]
+    for groups in _partitions(rest):
+        yield [[first], *groups]
+        for index in range(len(groups)):
+            yield [*groups[:index], [first, *groups[index]], *groups[index + 1 :]]
+
+
+@given(st.integers(1, 6), st.integers(0, 1000))
+def test_groups_are_the_fewest_of_all_partitions(count: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    losses = rng.uniform(0, 0.3, (count, count)) * (rng.uniform(size=(count, count)) < 0.6)
+    np.fill_diagonal(losses, 0.0)
+    spare = rng.uniform(0.02, 0.4, count)
+
+    def holds(groups: list[list[int]]) -> bool:
+        return all(sum(losses[i, j] for j in group) <= spare[i] for group in groups for i in group)
+
+    found = fewest_groups(losses, spare)
+    assert sorted(i for group in found for i in group) == list(range(count))
+    assert holds(found)
+    assert len(found) == min(len(groups) for groups in _partitions(list(range(count))) if holds(groups))

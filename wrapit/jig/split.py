@@ -15,29 +15,48 @@ from wrapit.wires.model import Wire
 
 PROBE_STEP_MM = 0.2
 EASE = 0.02  # of support, given up for one jig less
+WORK = 20_000
 
 
 def grouped(wires: Sequence[Wire], alone: Mapping[str, float], config: JigConfig) -> list[tuple[Wire, ...]]:
-    """Groups of wires, each wire with enough support beside the others by estimate.
+    """The fewest groups of wires in which each wire has enough support beside the others, by estimate.
 
-    `alone` is each wire's support in a jig of its own. A wire joins the first group where its turns and
-    theirs stay supported, longest wires first (first fit, like colouring a graph of conflicts).
+    `alone` is each wire's support in a jig of its own. Enough is `split_turn_support`, or nearly what the
+    wire has alone where that is less.
     """
-    losses = support_losses(wires, config)
-    goal = [min(config.split_turn_support, alone.get(wire.name, 1.0) - EASE) for wire in wires]
-    groups: list[list[int]] = []
-    for index in sorted(range(len(wires)), key=lambda i: (-wires[i].length_mm, i)):
+    support = np.array([alone.get(wire.name, 1.0) for wire in wires])
+    spare = support - np.minimum(config.split_turn_support, support - EASE)
+    groups = fewest_groups(support_losses(wires, config), spare)
+    return [tuple(wires[i] for i in group) for group in groups]
+
+
+def fewest_groups(losses: FloatArray, spare: FloatArray) -> list[list[int]]:
+    """The fewest groups in which no member i loses more than `spare[i]`, `losses[i, j]` to each other j.
+
+    Branch and bound, the most conflicting member first; its first try is first fit. Beyond WORK steps the
+    best so far is taken. Members and groups are in rising order.
+    """
+    order = sorted(range(len(spare)), key=lambda i: (-(losses[i].sum() + losses[:, i].sum()), i))
+    best: list[list[int]] = [[i] for i in order]
+    steps = 0
+
+    def place(number: int, groups: list[list[int]]) -> None:
+        nonlocal best, steps
+        steps += 1
+        if len(groups) >= len(best) or steps > WORK:
+            return
+        if number == len(order):
+            best = [list(group) for group in groups]
+            return
         for group in groups:
-            together = [*group, index]
-            if all(
-                alone.get(wires[i].name, 1.0) - sum(losses[i, j] for j in together if j != i) >= goal[i]
-                for i in together
-            ):
-                group.append(index)
-                break
-        else:
-            groups.append([index])
-    return [tuple(wires[i] for i in sorted(group)) for group in sorted(groups, key=min)]
+            group.append(order[number])
+            if (losses[np.ix_(group, group)].sum(axis=1) <= spare[group] + 1e-12).all():
+                place(number + 1, groups)
+            group.pop()
+        place(number + 1, [*groups, [order[number]]])
+
+    place(0, [])
+    return sorted(sorted(group) for group in best)
 
 
 def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
