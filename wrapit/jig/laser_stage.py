@@ -136,7 +136,7 @@ def _unheld(wire: Wire, held: Set[Turn]) -> Finding | None:
         "warning",
         "turn-without-wall",
         f"{wire.name} at {places} mm",
-        f"{len(loose)} of {len(wire.turns)} turns leave no room for a wall cut from sheet",
+        f"{len(loose)} of {len(wire.turns)} turns and stretches leave no room for a wall cut from sheet",
         "bend there by hand, make the piece larger, or print the jig",
     )
 
