@@ -12,8 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from wrapit.decomposition.local import LocalCosts, Matching
-
 # HiGHS stops when the gap is below 1e-6, which scipy can't change: scaling the costs makes it 1e-9.
 _SCALE = 1e3
 
@@ -101,26 +99,3 @@ def silent_stdout() -> Iterator[None]:
         os.dup2(saved, 1)
         os.close(saved)
         os.close(nowhere)
-
-
-def best_matching(costs: LocalCosts, ends: tuple[int, ...]) -> tuple[float, Matching]:
-    """The least cost and a matching at a junction where too many segments meet for listing."""
-    programme = Programme()
-    base = sum(costs.free[h] for h in ends)
-    for a in ends:
-        for b, cost in costs.pair[a].items():
-            if a < b:
-                programme.add_column(("pair", a, b), cost - costs.free[a] - costs.free[b])
-    for h in ends:
-        programme.add_row({("pair", min(h, b), max(h, b)): 1.0 for b in costs.pair[h]}, high=1.0)
-    for h, (other, both) in costs.loose.items():
-        if h in ends:
-            programme.add_column(("loose", h), both)
-            touching = {("pair", min(x, b), max(x, b)): 1.0 for x in (h, other) for b in costs.pair[x]}
-            programme.add_row({**touching, ("loose", h): 1.0}, low=1.0)
-    values = programme.solve(10**6).values
-    assert values is not None
-    pairs = tuple(sorted((name[1], name[2]) for name, x in values.items() if name[0] == "pair" and x > 0.5))
-    return base + sum(
-        programme.costs[programme.columns[name]] for name, x in values.items() if x > 0.5
-    ), pairs

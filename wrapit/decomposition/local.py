@@ -77,9 +77,7 @@ class LocalCosts:
             elif len(ends) <= _SOLVED_DEGREE:
                 self._best[junction] = self._by_subsets(ends)
             else:
-                from wrapit.decomposition.integer import best_matching
-
-                self._best[junction] = best_matching(self, ends)
+                self._best[junction] = self._by_integers(ends)
         return self._best[junction]
 
     def cost(self, junction: int, mate: Sequence[int]) -> float:
@@ -203,3 +201,26 @@ class LocalCosts:
         for b in rest:
             if b in self.pair[h] and (h, b) != without:
                 yield self.pair[h][b], (h, b), ((h, b),)
+
+    def _by_integers(self, ends: tuple[int, ...]) -> tuple[float, Matching]:
+        """The best matching where too many segments meet for listing."""
+        from wrapit.decomposition.integer import Programme
+
+        programme = Programme()
+        base = sum(self.free[h] for h in ends)
+        for a in ends:
+            for b, cost in self.pair[a].items():
+                if a < b:
+                    programme.add_column(("pair", a, b), cost - self.free[a] - self.free[b])
+        for h in ends:
+            programme.add_row({("pair", min(h, b), max(h, b)): 1.0 for b in self.pair[h]}, high=1.0)
+        for h, (other, both) in self.loose.items():
+            if h in ends:
+                programme.add_column(("loose", h), both)
+                touching = {("pair", min(x, b), max(x, b)): 1.0 for x in (h, other) for b in self.pair[x]}
+                programme.add_row({**touching, ("loose", h): 1.0}, low=1.0)
+        values = programme.solve(10**6).values
+        assert values is not None
+        chosen = [name for name, x in values.items() if x > 0.5]
+        pairs = tuple(sorted((name[1], name[2]) for name in chosen if name[0] == "pair"))
+        return base + sum(programme.costs[programme.columns[name]] for name in chosen), pairs
