@@ -14,7 +14,7 @@ from wrapit.geometry.parallels import as_chain
 from wrapit.geometry.pieces import chain_of
 from wrapit.jig.model import Jig
 from wrapit.jig.stage import build_jig
-from wrapit.wires.lifts import lay_wires
+from wrapit.wires.lifts import lay_wires, layers_of
 from wrapit.wires.model import Wire
 from wrapit.wires.turns import find_turns
 
@@ -41,7 +41,7 @@ def wires_of(
             bindings=(),
             min_bend_radius_mm=1.0,
             max_deviation_from_drawing_mm=0.0,
-            layers=1 + math.ceil(max((z for _, z in lift), default=0.0) / diameter_mm - 1e-3),
+            layers=layers_of(lift, diameter_mm),
             mass_g=1.0,
             closed=bool(np.allclose(chain.start, chain.end)),
             colour="#b87333",

@@ -38,7 +38,8 @@ def config(temper: str = "dead soft", **bail: object) -> Config:
 
 def made(solution: Solution, settings: Config) -> tuple[tuple[Wire, ...], dict[str, Finding]]:
     wires, findings = draw_wires(solution, settings)
-    return wires, {finding.code: finding for finding in findings}
+    _, placed = jump_ring(wires, solution.decomposition.drawing, settings)
+    return wires, {finding.code: finding for finding in (*findings, *placed)}
 
 
 def ring_of(solution: Solution, wires: tuple[Wire, ...], settings: Config) -> JumpRing | None:
@@ -184,7 +185,7 @@ def test_no_bail_unless_asked_for() -> None:
 )
 def test_what_cannot_be_is_refused(settings: Config, where: str, remedy: str) -> None:
     with pytest.raises(WireError) as caught:
-        draw_wires(ring(), settings)
+        made(ring(), settings)
     assert caught.value.where == where
     assert remedy in caught.value.remedy
 

@@ -27,7 +27,6 @@ from wrapit.geometry.polygons import fitted_edges
 STEP_MM = 0.1
 SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
 FREE_TOLERANCE_MM = 0.005
-SHORT_GAP_MM = 0.25
 
 
 @dataclass(frozen=True, eq=False)

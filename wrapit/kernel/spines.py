@@ -88,12 +88,6 @@ class Spine:
         return [*nodes, ordered[-1]]
 
     @cached_property
-    def sharpest_per_mm(self) -> float:
-        """Largest curvature in the plane, at fine steps."""
-        at = self._lengths.stations(0.02)
-        return float(np.abs(self.spline.curvature(self._lengths.parameter(at))).max())
-
-    @cached_property
     def length_mm(self) -> float:
         """Length in space."""
         if self._height is None:

@@ -218,7 +218,8 @@ def _draw_wires(work: _Work, folder: Path | None) -> None:
         work.findings += findings
         work.report["wires"] = reports.wire_numbers(work.wires)
         work.laid = _laid(work)
-        work.ring, _ = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
+        work.ring, placed = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
+        work.findings += placed
         if work.config.bail is not None:
             work.report["bail"] = reports.bail_numbers(work.wires, work.ring)
         if folder is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,14 +16,16 @@ SELF_ROUNDS = 6
 PROFILE_STEP = 6  # stations between the points of a profile
 SELF_DIAMETERS = 3.0  # a wire meets itself only farther apart than this along its length
 
+Profile = tuple[tuple[float, float], ...]
 
-def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[tuple[tuple[float, float], ...]]:
+
+def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[Profile]:
     """For each wire, in the order in which they are laid, its height profile (at_mm, z_mm).
 
     A later wire rests on the earlier ones: wherever two centrelines are nearer than a diameter in the
     plane, the later is raised until they are one diameter apart in space. Flat wires have no points.
     """
-    profiles: list[tuple[tuple[float, float], ...]] = []
+    profiles: list[Profile] = []
     below, heights = np.empty((0, 2)), np.empty(0)
     for spline in splines:
         lengths = ArcLength(spline)
@@ -32,6 +35,11 @@ def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[tuple[tupl
         profiles.append(_points(at_mm, z_mm) if z_mm.max() > 1e-9 else ())
         below, heights = np.concatenate([below, points]), np.concatenate([heights, z_mm])
     return profiles
+
+
+def layers_of(profile: Profile, diameter_mm: float) -> int:
+    """How many wires lie upon one another where a wire with this height profile lies highest."""
+    return 1 + math.ceil(max((z for _, z in profile), default=0.0) / diameter_mm - 1e-3)
 
 
 def _resting(

@@ -15,7 +15,7 @@ from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.recurving import best_fit, recurved
 from wrapit.materials import METALS
-from wrapit.wires.lifts import lay_wires
+from wrapit.wires.lifts import lay_wires, layers_of
 from wrapit.wires.model import Wire
 from wrapit.wires.turns import find_turns
 
@@ -59,7 +59,7 @@ def overbend(wire: Wire, loss_per_mm: float, config: JigConfig) -> Overbent:
         centreline=bent,
         turns=find_turns(wire.name, bent, config)[0],
         lifts=lifts,
-        layers=1 + math.ceil(max((z for _, z in lifts), default=0.0) / wire.diameter_mm - 1e-3),
+        layers=layers_of(lifts, wire.diameter_mm),
     )
     return Overbent(
         wire=laid,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from wrapit.config import Config, JigConfig
@@ -16,10 +14,9 @@ from wrapit.materials import METALS, min_inner_bend_radius_mm
 from wrapit.wires.bail import with_bail
 from wrapit.wires.bindings import find_bindings
 from wrapit.wires.centreline import FOLD_RAD, Joined, join
-from wrapit.wires.lifts import lay_wires
+from wrapit.wires.lifts import lay_wires, layers_of
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
-from wrapit.wires.ring import jump_ring
 from wrapit.wires.turns import find_turns
 
 CURVATURE_STEP_MM = 0.02
@@ -65,7 +62,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
                 bindings=bindings[index],
                 min_bend_radius_mm=min_radius_mm,
                 max_deviation_from_drawing_mm=max((c.deviation_mm for c in each.corners), default=0.0),
-                layers=1 + math.ceil(max((z for _, z in lifts[index]), default=0.0) / wire.gauge - 1e-3),
+                layers=layers_of(lifts[index], wire.gauge),
                 mass_g=METALS[wire.metal].mass_g(length_mm, wire.gauge),
                 closed=trail.closed,
                 colour=wire_colour(index),
@@ -73,8 +70,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
                 bail=bails.get(index),
             )
         )
-    _, placed = jump_ring(wires, drawing, config)
-    return tuple(wires), (*findings, *placed)
+    return tuple(wires), tuple(findings)
 
 
 def _post_bend_mm(diameter_mm: float, jig: JigConfig) -> float:
