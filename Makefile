@@ -6,6 +6,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 CONFIGS := $(wildcard configs/*.yaml)
 PIECES := $(CONFIGS:configs/%.yaml=build/%)
+SOURCES := $(shell find wrapit -name '*.py')
 JOBS ?= auto
 
 .DEFAULT_GOAL := help
@@ -31,12 +32,16 @@ demo: $(READY) ## build the butterfly from its bitmap and say where the files ar
 
 all: $(PIECES) ## build every config (use -j)
 
-# One report per piece; make rebuilds it when the config, its drawing or wrapit itself changed.
+# One report per piece. wrapit says in build/.deps what it read and wrote: make builds a piece again when its
+# config, its drawing (wherever that is) or wrapit changed, or when one of its files is gone.
 build/%: build/%/report.json ; @: ## build one piece: make build/leaf
 
-.SECONDEXPANSION:
-build/%/report.json: configs/%.yaml $$(wildcard configs/$$*.png configs/$$*.svg configs/$$*.json) $(READY) $(shell find wrapit -name '*.py')
-	$(BIN)/wrapit build $< -o $(@D) --force
+build/%/report.json: configs/%.yaml $(READY) $(SOURCES)
+	$(BIN)/wrapit build $< -o $(@D) --force -MF build/.deps/$*.d
+
+# The report says which files are wrapit's own: make is never to delete it.
+.PRECIOUS: build/%/report.json
+-include $(wildcard build/.deps/*.d)
 
 check: lint types imports ## every gate: lint, format, types, import arrows
 

@@ -54,6 +54,11 @@ class JigConfig(Block):
     split_turn_support: float = Field(default=0.9, ge=0, le=1)
     """Once split, wires share a jig only if each has wall along this share of its turns (or can't alone)."""
 
+    least_support: float = Field(default=0.3, ge=0, le=1)
+    """A piece can't be made as asked when walls would hold less than this share of its turns and long
+    stretches; 0 makes it all the same. A wire whose turns are held less than this is an error in the report.
+    """
+
     wall_thickness: PositiveLength = 3.5
     """Thickness of the walls, where there is room for it."""
 

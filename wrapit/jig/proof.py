@@ -39,6 +39,7 @@ def support_findings(
                     where,
                     f"{one.share:.0%} of this long stretch has a wall on either side",
                     "keep it straight by hand, make the piece larger, or set jig.split to per-wire",
+                    severity=1 - one.share,
                 )
             )
         elif one.share < WEAK:
@@ -49,6 +50,7 @@ def support_findings(
                     where,
                     f"{one.share:.0%} of this turn has a wall on the inside",
                     _remedy(course, one, config),
+                    severity=1 - one.share,
                 )
             )
     return tuple(findings)

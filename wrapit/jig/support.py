@@ -44,12 +44,12 @@ def total_support(support: Iterable[TurnSupport]) -> float:
     Long stretches are no turns: the hand doesn't bend the wire there. They are left out here, and
     `stretch_support` gives theirs. They are many times longer than the turns and would hide a bad one.
     """
-    return _share(one for one in support if one.turn.inside != "both")
+    return held_share(one for one in support if one.turn.inside != "both")
 
 
 def stretch_support(support: Iterable[TurnSupport]) -> float:
     """The share of the length of all long stretches that has a wall on either side; 1 where there is none."""
-    return _share(one for one in support if one.turn.inside == "both")
+    return held_share(one for one in support if one.turn.inside == "both")
 
 
 def support_by_wire(support: Iterable[TurnSupport]) -> dict[str, float]:
@@ -60,7 +60,8 @@ def support_by_wire(support: Iterable[TurnSupport]) -> dict[str, float]:
     return {wire: total_support(of_wire) for wire, of_wire in grouped.items()}
 
 
-def _share(support: Iterable[TurnSupport]) -> float:
+def held_share(support: Iterable[TurnSupport]) -> float:
+    """The supported share of the length of all these turns and long stretches; 1 where there is none."""
     lengths = [(s.turn.end_mm - s.turn.start_mm, s.share) for s in support]
     total = sum(length for length, _ in lengths)
     return sum(length * share for length, share in lengths) / total if total > 0 else 1.0

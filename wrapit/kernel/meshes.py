@@ -56,7 +56,9 @@ def mesh_of(solids: Iterable[Any], tolerance_mm: float, angle_rad: float) -> Mes
     mesh = _welded(np.concatenate(corners), np.concatenate(triangles))
     if mesh.open_edges:
         raise KernelError(
-            f"the triangles leave {mesh.open_edges} open edges", "", "change jig.stl_tolerance a little"
+            f"the solid's triangles leave {mesh.open_edges} open edges",
+            "",
+            "take stl and 3mf out of `outputs` and print from the STEP file, or make the piece 1 mm larger",
         )
     return mesh
 

@@ -11,12 +11,8 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
+from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
-
-
-def write_text(path: Path, text: str) -> None:
-    """UTF-8 with Unix line ends, whatever the machine."""
-    path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def write_previews(

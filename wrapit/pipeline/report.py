@@ -19,11 +19,11 @@ from wrapit.errors import Finding
 from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import Jig, JigSet, TurnSupport
 from wrapit.jig.support import stretch_support, total_support
-from wrapit.pipeline.folder import Artifact
+from wrapit.pipeline.ownership import FORMAT, Artifact
 from wrapit.wires.model import JumpRing, Wire
 from wrapit.wires.springback import Overbent
 
-FORMAT = "wrapit-report/1"
+HEAD_KEYS = ("format", "name", "version", "config_sha256", "drawing_sha256")
 
 
 def head(config: Config, drawing_sha256: str) -> dict[str, Any]:
@@ -167,13 +167,23 @@ def plate_numbers(laser: LaserJig) -> dict[str, Any]:
 
 
 def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:
-    """The `findings` block, each said once."""
-    return [dataclasses.asdict(finding) for finding in dict.fromkeys(findings)]
+    """The `findings` block: each said once, those of a kind together, the worst of them first."""
+    kinds: dict[tuple[str, str], list[Finding]] = {}
+    for finding in dict.fromkeys(findings):
+        kinds.setdefault((finding.code, finding.level), []).append(finding)
+    ordered = [f for kind in kinds.values() for f in sorted(kind, key=lambda f: -f.severity)]
+    return [
+        {"level": f.level, "code": f.code, "where": f.where, "message": f.message, "remedy": f.remedy}
+        for f in ordered
+    ]
 
 
 def artifact_list(artifacts: Sequence[Artifact]) -> list[dict[str, Any]]:
     """The `artifacts` block."""
-    return [dataclasses.asdict(artifact) for artifact in artifacts]
+    return [
+        {key: value for key, value in dataclasses.asdict(artifact).items() if value is not None}
+        for artifact in artifacts
+    ]
 
 
 def to_json(document: dict[str, Any]) -> str:

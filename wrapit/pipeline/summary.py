@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
+import itertools
 from collections.abc import Iterator
+from typing import Any
 
 from wrapit.pipeline.build import Build
 
-SHOWN_PER_KIND = 3
+LEVELS = ("error", "warning", "note")
 
 
 def summary_lines(result: Build) -> Iterator[str]:
@@ -15,7 +16,7 @@ def summary_lines(result: Build) -> Iterator[str]:
     report = result.report
     drawing = report["drawing"]
     width, height = drawing["size_mm"]
-    yield f"{report['name']}: {drawing['segments']} segments, {width:.0f} × {height:.0f} mm"
+    yield f"{report['name']}: {_count(drawing['segments'], 'segment')}, {width:.0f} × {height:.0f} mm"
     if "decomposition" in report:
         energy, optimal = report["decomposition"]["energy"], report["decomposition"]["optimal"]
         proof = ", proven best" if optimal else ""
@@ -30,22 +31,37 @@ def summary_lines(result: Build) -> Iterator[str]:
         held = f", {jig['turn_support']:.0%} of turns held" if bends else ""
         yield f"{jigs}: {_count(jig['walls'], 'wall')}, {size} mm{held}"
     if result.folder is not None:
-        yield f"{'up to date' if result.up_to_date else 'written'}: {result.folder}"
+        yield _where(result)
+
+
+def _where(result: Build) -> str:
+    if not result.up_to_date:
+        return f"written: {result.folder}"
+    reached = result.report["until"]
+    fuller = "" if reached == result.asked else f"; it holds a build until {reached}, which stays as it is"
+    return f"up to date: {result.folder}{fuller}"
 
 
 def finding_lines(result: Build, *, every: bool) -> Iterator[str]:
-    """Warnings and errors, one line each, the first few of a kind; with `every` all of them and notes."""
-    findings = [f for f in result.report["findings"] if every or f["level"] != "note"]
-    shown: Counter[str] = Counter()
-    for finding in findings:
-        shown[finding["code"]] += 1
-        if every or shown[finding["code"]] <= SHOWN_PER_KIND:
-            where = f"{finding['where']}: " if finding["where"] else ""
-            remedy = f"; {finding['remedy']}" if finding["remedy"] else ""
-            yield f"{finding['level']}: {where}{finding['message']}{remedy}"
-    for code, number in shown.items():
-        if not every and number > SHOWN_PER_KIND:
-            yield f"and {number - SHOWN_PER_KIND} more of the kind {code!r} (-v shows all, the report too)"
+    """Errors and warnings, one line for each kind: how many there are and the worst of them.
+
+    With `every`, each of them has its line, and notes too.
+    """
+    shown = [f for f in result.report["findings"] if every or f["level"] != "note"]
+    ordered = sorted(shown, key=lambda finding: LEVELS.index(finding["level"]))
+    for _, same in itertools.groupby(ordered, key=lambda f: (f["level"], f["code"])):
+        kind = list(same)
+        if every:
+            yield from map(_line, kind)
+        else:
+            yield _line(kind[0], others=len(kind) - 1)
+
+
+def _line(finding: dict[str, Any], others: int = 0) -> str:
+    more = f" (the worst of {others + 1}; -v shows all)" if others else ""
+    where = f"{finding['where']}: " if finding["where"] else ""
+    remedy = f"; {finding['remedy']}" if finding["remedy"] else ""
+    return f"{finding['level']}: {where}{finding['message']}{more}{remedy}"
 
 
 def _count(number: int, noun: str) -> str:

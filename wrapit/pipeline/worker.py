@@ -6,9 +6,11 @@ import importlib
 import multiprocessing
 import os
 import signal
+import sys
+import threading
 import traceback
 from collections.abc import Callable, Sequence
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -43,7 +45,8 @@ class Worker:
     def run(self, where: str, timeout_s: float, function: Callable[..., T], *arguments: Any) -> T:
         """The function's result; its WrapItErrors come through.
 
-        Raises KernelError, naming `where`, when the process crashes or doesn't end in time.
+        Raises KernelError, naming `where`, when the process crashes or doesn't end in time, ExportError when
+        it couldn't write.
         """
         try:
             self._connection.send((function, arguments))
@@ -57,15 +60,13 @@ class Worker:
             succeeded, value = self._connection.recv()
         except (EOFError, BrokenPipeError, ConnectionResetError):
             self._process.join(5)
-            raise KernelError(
-                f"the solid modeller crashed (exit code {self._process.exitcode})",
-                where,
-                "change the size or simplify the drawing there; please report the drawing",
-            ) from None
+            raise _ended(self._process.exitcode, where) from None
         if succeeded:
             return value
-        if isinstance(value, WrapItError):
+        if isinstance(value, WrapItError | OSError):
             raise value
+        if isinstance(value, MemoryError):
+            raise _out_of_memory(where)
         raise RuntimeError(value)
 
     def _stop(self) -> None:
@@ -78,7 +79,27 @@ class Worker:
         self._connection.close()
 
 
+def _ended(exit_code: int | None, where: str) -> KernelError:
+    """Why the process is gone: killed from outside is what systems do that run out of memory."""
+    if exit_code == -signal.SIGKILL:
+        return _out_of_memory(where)
+    return KernelError(
+        f"the solid modeller crashed (exit code {exit_code})",
+        where,
+        "change the size or simplify the drawing there; please report the drawing",
+    )
+
+
+def _out_of_memory(where: str) -> KernelError:
+    return KernelError(
+        "the solid modeller was stopped from outside, as when memory runs out",
+        where,
+        "close other programs, build fewer pieces at once (make -j1), or simplify the drawing",
+    )
+
+
 def _serve(connection: Connection, preload: Sequence[str]) -> None:
+    _end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
     with Path(os.devnull).open("w") as nowhere:
         os.dup2(nowhere.fileno(), 1)  # the kernel's writers chat on stdout, which belongs to the report
@@ -91,8 +112,28 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             return
         try:
             answer: tuple[bool, Any] = (True, function(*arguments))
-        except WrapItError as error:
+        except (WrapItError, OSError, MemoryError) as error:
             answer = (False, error)
         except Exception:  # noqa: BLE001  told to the parent with its traceback
             answer = (False, traceback.format_exc())
-        connection.send(answer)
+        try:
+            connection.send(answer)
+        except BrokenPipeError:
+            return  # the parent is gone
+
+
+def _end_with_parent() -> None:
+    """Ends this process with the one that started it, however that one ends, even amid kernel work."""
+    if sys.platform == "linux":
+        import ctypes
+
+        pr_set_pdeathsig = 1
+        ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_after(sentinel: int) -> None:
+    wait([sentinel])
+    os._exit(1)

@@ -45,7 +45,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
     ):
         turns, slight = find_turns(name, spline, config.jig)
         lengths = ArcLength(spline)
-        min_radius_mm, tight = _tightest(name, each, lengths, radius_mm)
+        min_radius_mm, tight = _tightest(name, each, lengths, radius_mm, wire.gauge)
         findings += [*tight, *slight]
         length_mm = lengths.total_mm
         margin_mm = max(config.guide.margin, MIN_MARGIN_SHARE * length_mm)
@@ -92,22 +92,27 @@ def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:
 
 
 def _tightest(
-    name: str, joined: Joined, lengths: ArcLength, allowed_mm: float
+    name: str, joined: Joined, lengths: ArcLength, allowed_mm: float, diameter_mm: float
 ) -> tuple[float, tuple[Finding, ...]]:
-    """Smallest bend radius of the centreline; a finding for each span that the metal doesn't take."""
+    """Smallest bend radius of the centreline; a finding for each span that the metal doesn't take.
+
+    Bent tighter than its own radius a wire would lie in itself: that is an error.
+    """
     at_mm = lengths.stations(CURVATURE_STEP_MM)
     curvature = np.abs(lengths.spline.curvature(lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2)))
     spans = np.flatnonzero(np.diff(np.r_[0, curvature > 1.01 / allowed_mm, 0])).reshape(-1, 2)
     findings = [
         Finding(
-            "warning",
+            "error" if bend_mm < diameter_mm / 2 else "warning",
             "tight-bend",
             f"{name} at {at_mm[(a + b) // 2]:.0f} mm",
-            f"the drawing asks for a bend of radius {1 / curvature[a:b].max():.2f} mm; "
+            f"the drawing asks for a bend of radius {bend_mm:.2f} mm; "
             f"this wire takes {allowed_mm:.2f} mm without damage",
             "make the piece larger, or use thinner or softer wire",
+            severity=allowed_mm / bend_mm,
         )
         for a, b in spans
+        for bend_mm in [1 / float(curvature[a:b].max())]
     ]
     radius = 1 / max(float(curvature.max()), 1e-9)
     return min(radius, *(c.radius_mm for c in joined.corners if c.bend_rad < FOLD_RAD), 1e6), tuple(findings)

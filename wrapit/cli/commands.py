@@ -1,25 +1,24 @@
-"""The command line: arguments in, exit code out. Everything heavy is imported inside the commands."""
+"""The commands, each a thin wrapper: everything heavy is imported inside them."""
 
 from __future__ import annotations
 
 import json
 import os
-import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from wrapit import __version__
 
 if TYPE_CHECKING:
-    from wrapit.pipeline.build import Build, Stage
+    from wrapit.pipeline.build import Build
+    from wrapit.pipeline.stages import Stage
 
 app = typer.Typer(
     name="wrapit",
-    no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -38,39 +37,8 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but er
 Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Say more; -vv shows tracebacks.")]
 
 
-def main() -> NoReturn:
-    """Entry point: every error becomes one line and the documented exit code."""
-    signal.signal(signal.SIGTERM, _terminated)
-    try:
-        app(standalone_mode=True)
-    except KeyboardInterrupt:
-        _say("interrupted; earlier files are untouched")
-        sys.exit(130)
-    except Exception as error:  # noqa: BLE001  the last line of defence: one line, not a traceback
-        sys.exit(_failed(error))
-    sys.exit(0)
-
-
-def _terminated(signum: int, frame: object) -> NoReturn:  # noqa: ARG001  the signature is Python's
-    sys.exit(128 + signum)
-
-
-def _failed(error: Exception) -> int:
-    from wrapit.errors import WrapItError
-
-    if "-vv" in sys.argv:
-        import traceback
-
-        traceback.print_exc()
-    if isinstance(error, WrapItError):
-        _say(f"error: {error}")
-        return error.exit_code
-    summary = " ".join(str(error).split())[-300:]
-    _say(f"error: unexpected ({type(error).__name__}: {summary}); run again with -vv and report it")
-    return 1
-
-
-def _say(line: str) -> None:
+def say(line: str) -> None:
+    """One line for the person, on stderr."""
     print(line, file=sys.stderr)
 
 
@@ -104,6 +72,10 @@ def build(
         int,
         typer.Option(min=0, max=12, metavar="K", help="Also draw the K best ways to divide it into wires."),
     ] = 0,
+    depfile: Annotated[
+        Path | None,
+        typer.Option("-MF", "--depfile", metavar="FILE", help="Write what the build depends on, for make."),
+    ] = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = 0,
@@ -116,7 +88,18 @@ def build(
         lambda progress: run(config, output, overrides or (), stage, force, alternatives, progress),
         quiet or as_json,
     )
+    if depfile is not None:
+        _write_depfile(depfile, result)
     _show(result, as_json, quiet, verbose)
+
+
+def _write_depfile(path: Path, result: Build) -> None:
+    from wrapit.pipeline.depfile import write_depfile
+    from wrapit.pipeline.ownership import REPORT
+
+    assert result.folder is not None, "a build has a folder"
+    products = [result.folder / artifact["path"] for artifact in result.report["artifacts"]]
+    write_depfile(path, result.folder / REPORT, result.sources, products)
 
 
 @app.command()
@@ -130,14 +113,15 @@ def init(
     """Write a commented config for a drawing, with sizes proposed from it."""
     from wrapit.drawing.proposal import propose_config
     from wrapit.errors import ConfigError
+    from wrapit.pipeline.textfile import write_whole
 
     target = output or drawing.with_suffix(".yaml")
     relative = os.path.relpath(drawing, target.parent)
     text = propose_config(drawing).replace(f"drawing: {drawing.name}", f"drawing: {relative}", 1)
-    if target.exists():
+    if os.path.lexists(target):
         raise ConfigError("exists already", str(target), "choose another file with -o")
     try:
-        target.write_text(text, encoding="utf-8")
+        write_whole(target, text)
     except OSError as error:
         raise ConfigError(
             f"can't be written ({error.strerror})", str(target), "choose another file with -o"
@@ -209,7 +193,7 @@ def materials() -> None:
 
 
 def _stage(name: str) -> Stage:
-    from wrapit.pipeline.build import STAGES
+    from wrapit.pipeline.stages import STAGES
 
     for stage in STAGES:
         if stage == name:
@@ -228,16 +212,17 @@ def _with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) -
 
 def _show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
     if as_json:
-        print(json.dumps({**result.report, "timings_s": result.timings_s}, ensure_ascii=False))
+        print(json.dumps({**result.report, "timings_s": result.timings_s}, allow_nan=False))
         return
     if quiet:
         return
     from wrapit.pipeline.summary import finding_lines, summary_lines
 
-    for line in finding_lines(result, every=verbose > 0):
-        _say(line)
     for line in summary_lines(result):
         print(line)
+    sys.stdout.flush()
+    for line in finding_lines(result, every=verbose > 0):
+        say(line)
     if verbose:
         for stage, seconds in result.timings_s.items():
-            _say(f"{stage:<14}{seconds:7.2f} s")
+            say(f"{stage:<14}{seconds:7.2f} s")

@@ -1,0 +1,118 @@
+"""Entry point: whatever happens ends in one line for the person, one document with --json, one exit code."""
+
+from __future__ import annotations
+
+import errno
+import io
+import json
+import os
+import signal
+import sys
+from types import FrameType
+from typing import NoReturn
+
+from wrapit.cli.commands import app, say
+from wrapit.errors import WrapItError
+
+INTERRUPTED = 130
+_DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
+
+
+class Terminated(BaseException):
+    """A signal asks the program to end; `exit_code` is what shells expect of it."""
+
+    def __init__(self, signum: int) -> None:
+        super().__init__(signum)
+        self.exit_code = 128 + signum
+
+
+def main() -> NoReturn:
+    """Runs the command in `sys.argv` and exits."""
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), _terminate)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    sys.exit(_exit_code(sys.argv[1:]))
+
+
+def _terminate(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001  the signature is Python's
+    raise Terminated(signum)
+
+
+def _exit_code(arguments: list[str]) -> int:
+    try:
+        if not arguments:
+            app(["--help"], standalone_mode=False)
+            return 2
+        code = int(app(arguments, standalone_mode=False) or 0)
+        sys.stdout.flush()
+        if code == INTERRUPTED:
+            raise KeyboardInterrupt
+        return code
+    except (Terminated, KeyboardInterrupt) as ended:
+        code = ended.exit_code if isinstance(ended, Terminated) else INTERRUPTED
+        return _report("interrupted", "interrupted; earlier files are untouched", "", "", code, arguments)
+    except BrokenPipeError:
+        _drop_stdout()  # the reader has seen enough, as `| head` has
+        return 1
+    except Exception as error:  # noqa: BLE001  the last line of defence: one line, not a traceback
+        if "-vv" in arguments:
+            import traceback
+
+            traceback.print_exc()
+        return _failed(error, arguments)
+
+
+def _failed(error: Exception, arguments: list[str]) -> int:
+    if isinstance(error, WrapItError):
+        return _report(error.code, error.problem, error.where, error.remedy, error.exit_code, arguments)
+    if hasattr(error, "format_message"):  # what the parser of the command line raises
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context is not None else "wrapit"
+        problem = error.format_message().rstrip(".")
+        return _report(
+            "usage", f"{problem[:1].lower()}{problem[1:]}", "", f"see {command} --help", 2, arguments
+        )
+    if isinstance(error, OSError):
+        reason = (error.strerror or str(error) or type(error).__name__).lower()
+        remedy = _DISK.get(error.errno or 0, "check the path, its permissions and the disk")
+        return _report("system", f"can't be read or written ({reason})", _place(error), remedy, 1, arguments)
+    if isinstance(error, MemoryError):
+        remedy = "close other programs, or make the drawing smaller"
+        return _report("memory", "memory ran out", "", remedy, 1, arguments)
+    summary = " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")[-300:]
+    remedy = "run again with -vv and report it"
+    return _report("unexpected", f"unexpected ({summary})", "", remedy, 1, arguments)
+
+
+def _place(error: OSError) -> str:
+    return str(error.filename) if error.filename is not None else "output"
+
+
+def _report(code: str, problem: str, where: str, remedy: str, exit_code: int, arguments: list[str]) -> int:
+    """One line on stderr; with --json also one document on stdout, if that can be written to at all."""
+    say(f"error: {WrapItError(problem, where, remedy)}")
+    if "--json" in arguments:
+        told = {"code": code, "problem": problem, "where": where, "remedy": remedy, "exit_code": exit_code}
+        try:
+            print(json.dumps({"error": told}))
+            sys.stdout.flush()
+        except OSError:
+            _drop_stdout()
+    else:
+        _flush_or_drop()
+    return exit_code
+
+
+def _flush_or_drop() -> None:
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _drop_stdout()
+
+
+def _drop_stdout() -> None:
+    """Points stdout at nothing, so that Python doesn't try once more at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
