@@ -51,7 +51,7 @@ class _Source:
 def _apply(data: dict[str, Any], override: str) -> None:
     key, equals, text = override.partition("=")
     where, blocks = _set(override), key.split(".")
-    if not equals or not all(blocks):
+    if not equals or not all(blocks) or not key.isprintable():
         raise ConfigError("not of the form key=value", where, "write for example --set wire.gauge='20 AWG'")
     if len(override) > LONGEST_OVERRIDE or len(blocks) > DEEPEST:
         raise ConfigError("this is too long or too deep", where, "see `wrapit schema` for the keys")

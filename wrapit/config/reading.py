@@ -11,8 +11,8 @@ from wrapit.config.budgets import check_budgets
 from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened
 
-LARGEST_FILE: Final = 1_000_000
-"""Bytes; a config has some hundred."""
+LARGEST_FILE: Final = 200_000
+"""Bytes; a config has some hundred, and YAML takes seconds for a megabyte."""
 UNREADABLE: Final = (ArithmeticError, AssertionError, AttributeError, LookupError, RecursionError, TypeError)
 """What the YAML library also raises when a value is not what it seems."""
 _FORBIDDEN: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -74,7 +74,7 @@ def _text_of(path: Path, where: str) -> str:
     except (OSError, ValueError) as error:
         raise ConfigError(f"the config can't be read ({reason(error)})", where, remedy) from None
     if len(content) > LARGEST_FILE:
-        problem = f"the config is larger than {LARGEST_FILE // 1_000_000} MB"
+        problem = f"the config is larger than {LARGEST_FILE // 1000} kB"
         raise ConfigError(problem, where, f"{remedy}; the drawing is a file of its own")
     try:
         return content.decode("utf-8-sig")
