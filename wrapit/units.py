@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Final
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*([^\d\s].*?)?\s*$")
+_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*((?:(?<=\s)1/)?[^\d\s].*?)?\s*$")
 _GAUGE: Final = re.compile(r"^\s*(?:(awg|swg)\s*[-#]?\s*(\d{1,3})|(\d{1,3})\s*(awg|swg))\s*$", re.IGNORECASE)
 
 MM_PER: Final = {
@@ -102,12 +102,15 @@ def _quantity(value: object, units: Mapping[str, float], example: str) -> float:
     remedy = f"write for example {example!r}"
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ValueError(f"expected a value with a unit, but got {shown(value)}; {remedy}")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{value} is not a finite number; {remedy}")
     if isinstance(value, int | float):
         raise UnitMissingError(shown(value), shown(value), example)
     match = _QUANTITY.match(value) if len(value) <= LONGEST_TEXT else None
     if match is None:
         raise ValueError(f"{shown(value)} is not a value with a unit; {remedy}")
     number, unit = float(match[1]), (match[2] or "").replace(" ", "").lower()
+    unit = unit.replace("\N{GREEK SMALL LETTER MU}", "\N{MICRO SIGN}")  # which look alike
     if not unit:
         raise UnitMissingError(shown(value), match[1], example)
     if unit not in units:

@@ -129,5 +129,14 @@ def test_a_bad_drawing_is_refused_with_its_place(tmp_path: Path, drawing: str) -
 
 
 def test_common_drawings_are_fine() -> None:
-    for path in ("bee.png", "../bee.png", "/a/b c/蜂.svg", "a" * 255, "C:\\x\\bee.png", "a/b/" * 100):
+    for path in (
+        "bee.png",
+        "../bee.png",
+        "/a/b c/蜂.svg",
+        "a" * 255,
+        "C:\\x\\bee.png",
+        "at 3\u202fPM.png",
+        "👩\u200d🎨.png",
+        "a/b/" * 100,
+    ):
         assert path_problem(path) is None

@@ -204,10 +204,13 @@ def test_what_is_written_is_read_again(key: Key, part: float) -> None:
 @pytest.mark.parametrize("key", KEYS, ids=[key.dotted for key in KEYS])
 def test_nonsense_in_a_file_is_refused_in_one_line(tmp_path: Path, key: Key) -> None:
     """As the maker meets it: file, line, column and key, what is wrong, and a remedy."""
+    model, way = block_of(key)
+    needed = {} if model is Config else _needed(model, str(way[0]))
+    beside = "".join(f", {name}: {value}".replace("'", "") for name, value in needed.items())
     refused = 0
     for spelled in SPELLED:
-        block = str(key.nested("VALUE")).replace("'VALUE'", spelled)
-        text = block[1:-1].replace("'", "")
+        block = str(key.nested("VALUE"))[1:-1].replace("'", "")
+        text = block.replace("VALUE", f"{spelled}{beside}")
         made = attempt(tmp_path, text)
         if isinstance(made, ConfigError):
             refused += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -110,6 +111,25 @@ def refusal(schedule: dict[str, float]) -> str | None:
     except ValidationError as error:
         return str(error.errors()[0]["ctx"]["error"])
     return None
+
+
+@pytest.mark.parametrize(
+    ("table", "read"),
+    [
+        (units.MM_PER, units.length_mm),
+        (units.PER_MM, units.curvature_per_mm),
+        (units.RADIANS_PER, units.angle_rad),
+        (units.SECONDS_PER, units.duration_s),
+    ],
+)
+def test_every_unit_that_is_offered_is_read(table: dict[str, float], read: Callable[[object], float]) -> None:
+    for unit, factor in table.items():
+        for text in (
+            f"2.5 {unit}",
+            f" 2.5 {unit.upper()} ",
+            f"2.5{unit}" if unit[0] != "1" else f"2.5  {unit}",
+        ):
+            assert read(text) == pytest.approx(2.5 * factor), text
 
 
 def test_an_example_out_of_range_is_the_programmers_mistake() -> None:

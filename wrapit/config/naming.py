@@ -14,6 +14,8 @@ LONGEST_NAME_BYTES: Final = 200
 LONGEST_PART_BYTES: Final = 255
 """Of a path between two slashes, on all common systems."""
 LONGEST_PATH: Final = 1000
+UNWRITABLE: Final = ("Cc", "Cs", "Zl", "Zp")
+"""Control characters, halves of characters and ends of lines; odd spaces do occur, as in screenshots."""
 UNNAMED: Final = "piece"
 DEVICES: Final = frozenset(
     {"con", "prn", "aux", "nul", *(f"{port}{digit}" for port in ("com", "lpt") for digit in "0123456789¹²³")}
@@ -70,8 +72,8 @@ def path_problem(path: str) -> str | None:
     remedy = "write for example 'bee.png'"
     if not path.strip():
         return f"the path is empty; {remedy}"
-    if not path.isprintable():
-        return f"{shown(path)} holds characters that can't be printed; {remedy}"
+    if any(unicodedata.category(letter) in UNWRITABLE for letter in path):
+        return f"{shown(path)} holds characters that no path can have; {remedy}"
     longest = max(len(part.encode("utf-8")) for part in path.split("/"))
     if len(path) > LONGEST_PATH or longest > LONGEST_PART_BYTES:
         return f"a path of {len(path)} characters is too long; {remedy}"

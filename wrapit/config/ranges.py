@@ -113,10 +113,10 @@ class NumberRange(Mark):
 
     def check(self, value: object) -> float:
         whole = self.type == "integer"
-        remedy = f"choose between {self.at_least} and {self.at_most}"
+        remedy = f"choose between {shown(self.at_least)} and {shown(self.at_most)}"
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ValueError(f"{shown(value)} is not a {self.NAMES[self.type]}; {remedy}")
-        if not math.isfinite(value) if isinstance(value, float) else False:
+        if isinstance(value, float) and not math.isfinite(value):
             raise ValueError(f"{value} is not a finite number; {remedy}")
         if whole and value != int(value):
             raise ValueError(f"{value} is not a whole number; {remedy}")
