@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Final, Literal
+from collections.abc import Mapping
+from typing import Final
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*([^\d\s].*?)?\s*$")
-_GAUGE: Final = re.compile(r"^\s*(?:(awg|swg)\s*[-#]?\s*(\d+)|(\d+)\s*(awg|swg))\s*$", re.IGNORECASE)
+_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*((?:(?<=\s)1/)?[^\d\s].*?)?\s*$")
+_GAUGE: Final = re.compile(r"^\s*(?:(awg|swg)\s*[-#]?\s*(\d{1,3})|(\d{1,3})\s*(awg|swg))\s*$", re.IGNORECASE)
 
 MM_PER: Final = {
     "mm": 1.0,
@@ -25,6 +26,21 @@ MM_PER: Final = {
 }
 PER_MM: Final = {"/mm": 1.0, "1/mm": 1.0, "mm^-1": 1.0, "/cm": 0.1, "1/cm": 0.1, "/m": 1e-3, "1/m": 1e-3}
 RADIANS_PER: Final = {"deg": math.pi / 180, "°": math.pi / 180, "degrees": math.pi / 180, "rad": 1.0}
+SECONDS_PER: Final = {
+    "s": 1.0,
+    "sec": 1.0,
+    "seconds": 1.0,
+    "min": 60.0,
+    "minutes": 60.0,
+    "h": 3600.0,
+    "hours": 3600.0,
+}
+
+LONGEST_TEXT: Final = 60
+"""Characters of a value with a unit; longer ones are something else."""
+LONGEST_SHOWN: Final = 60
+LONGEST_NUMBER: Final = 25
+"""Digits of a whole number that a message repeats."""
 
 # British standard wire gauge (BS 3737), diameters in mm.
 SWG_MM: Final = {
@@ -42,106 +58,117 @@ def awg_diameter_mm(gauge: int) -> float:
     return 0.127 * 92.0 ** ((36 - gauge) / 39)
 
 
-def _quantity(value: object, units: dict[str, float], example: str) -> float:
+class UnitMissingError(ValueError):
+    """A bare number: `number` is its text, to which a unit could be added."""
+
+    def __init__(self, given: str, number: str, example: str) -> None:
+        super().__init__(f"{given} has no unit; write for example {example!r}")
+        self.given, self.number = given, number
+
+
+def shown(value: object) -> str:
+    """What somebody wrote, as a message shows it: on one line, never long, whatever it is."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ValueError(f"expected a value with a unit, such as {example!r}, but got {_shown(value)}")
+        names = {
+            list: "a list",
+            tuple: "a list",
+            dict: "a block",
+            type(None): "nothing",
+            bool: "true or false",
+        }
+        return names.get(type(value), type(value).__name__)
+    if isinstance(value, str):
+        return repr(shortened(value, LONGEST_SHOWN))  # which spells out what can't be printed
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**LONGEST_NUMBER else "a number of endless digits"
+    return f"{value:g}"
+
+
+def shortened(text: str, length: int) -> str:
+    """The text, cut where it is longer than `length`."""
+    return text if len(text) <= length else f"{text[: length - 1]}…"
+
+
+def printable(text: str) -> str:
+    """The text with what can't be printed (control characters, halves of characters) spelled out.
+
+    >>> printable("é\\x07")
+    'é\\\\x07'
+    """
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+
+
+def _quantity(value: object, units: Mapping[str, float], example: str) -> float:
+    remedy = f"write for example {example!r}"
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ValueError(f"expected a value with a unit, but got {shown(value)}; {remedy}")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{value} is not a finite number; {remedy}")
     if isinstance(value, int | float):
-        raise ValueError(f"{value} has no unit; write for example {f'{value:g}{_suffix(example)}'!r}")
-    match = _QUANTITY.match(value)
+        raise UnitMissingError(shown(value), shown(value), example)
+    match = _QUANTITY.match(value) if len(value) <= LONGEST_TEXT else None
     if match is None:
-        raise ValueError(f"{value!r} is not a value with a unit; write for example {example!r}")
+        raise ValueError(f"{shown(value)} is not a value with a unit; {remedy}")
     number, unit = float(match[1]), (match[2] or "").replace(" ", "").lower()
+    unit = unit.replace("\N{GREEK SMALL LETTER MU}", "\N{MICRO SIGN}")  # which look alike
     if not unit:
-        raise ValueError(f"{value!r} has no unit; write for example {f'{match[1]}{_suffix(example)}'!r}")
+        raise UnitMissingError(shown(value), match[1], example)
     if unit not in units:
-        raise ValueError(f"unknown unit {unit!r}; use one of {', '.join(units)}, for example {example!r}")
+        raise ValueError(
+            f"unknown unit {shown(unit)}; use one of {', '.join(units)}, for example {example!r}"
+        )
     if not math.isfinite(number):
-        raise ValueError(f"{value!r} is not a finite number")
+        raise ValueError(f"{shown(value)} is not a finite number; {remedy}")
     return number * units[unit]
 
 
-def _shown(value: object) -> str:
-    return {list: "a list", dict: "a block", bool: "true or false", type(None): "nothing"}.get(
-        type(value), type(value).__name__
-    )
-
-
-def _suffix(example: str) -> str:
-    return example[len(example.split(maxsplit=1)[0]) :]
-
-
-def length_mm(value: object) -> float:
+def length_mm(value: object, example: str = "40 mm") -> float:
     """Millimetres of a length such as `40 mm`, `1.5 in`; ValueError with a hint otherwise.
 
     >>> length_mm("1.5 in")
     38.1
     """
-    return round(_quantity(value, MM_PER, "40 mm"), 9)
+    return round(_quantity(value, MM_PER, example), 9)
 
 
-def curvature_per_mm(value: object) -> float:
+def curvature_per_mm(value: object, example: str = "0.08 /mm") -> float:
     """Curvature in 1/mm of `0.08 /mm`, `0.8 /cm`; ValueError with a hint otherwise."""
-    return _quantity(value, PER_MM, "0.08 /mm")
+    return _quantity(value, PER_MM, example)
 
 
-def angle_rad(value: object) -> float:
+def angle_rad(value: object, example: str = "60 deg") -> float:
     """Radians of an angle such as `60 deg`; ValueError with a hint otherwise."""
-    return _quantity(value, RADIANS_PER, "60 deg")
+    return _quantity(value, RADIANS_PER, example)
 
 
-def gauge_diameter_mm(value: object) -> float:
+def duration_s(value: object, example: str = "120 s") -> float:
+    """Seconds of a time such as `120 s`, `5 min`; ValueError with a hint otherwise.
+
+    >>> duration_s("5 min")
+    300.0
+    """
+    return _quantity(value, SECONDS_PER, example)
+
+
+def gauge_diameter_mm(value: object, example: str = "1.0 mm") -> float:
     """Diameter in mm of `18 AWG`, `awg18`, `swg18` or `1.0 mm`; ValueError with a hint otherwise.
 
     >>> gauge_diameter_mm("swg 18")
     1.22
     """
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        raise ValueError(f"{value} has no unit; write '{value:g} AWG', 'swg{value:g}' or '{value:g} mm'")
     match = _GAUGE.match(value) if isinstance(value, str) else None
     if match is None:
-        return _quantity(value, MM_PER, "1.0 mm")
+        return length_mm(value, example)
     system, number = (match[1] or match[4]).lower(), int(match[2] or match[3])
     if system == "awg":
         if not 0 <= number <= 40:
-            raise ValueError(f"{value!r}: AWG sizes run from 0 to 40")
+            raise ValueError(f"{value!r}: AWG sizes run from 0 to 40; write for example '18 AWG'")
         return awg_diameter_mm(number)
     if number not in SWG_MM:
         raise ValueError(
             f"{value!r}: known SWG sizes are {', '.join(map(str, SWG_MM))}; or give a diameter in mm"
         )
     return SWG_MM[number]
-
-
-def point_mm(value: object) -> tuple[float, float]:
-    """A point in mm of `[12 mm, 30 mm]`; ValueError with a hint otherwise.
-
-    >>> point_mm(["1 cm", "-2.5 mm"])
-    (10.0, -2.5)
-    """
-    if not isinstance(value, list | tuple) or len(value) != 2:
-        raise ValueError(f"expected a point such as [12 mm, 30 mm], but got {_shown(value)}")
-    return length_mm(value[0]), length_mm(value[1])
-
-
-def place_mm(value: object) -> Literal["top"] | int | tuple[float, float]:
-    """`top`, the number of a junction, or a point in mm of `[12 mm, 30 mm]`; ValueError otherwise."""
-    if value == "top":
-        return "top"
-    if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
-        return value
-    if isinstance(value, list | tuple):
-        return point_mm(value)
-    raise ValueError(f"{value!r} is no place; write top, the number of a junction, or [12 mm, 30 mm]")
-
-
-def point_in_mm(point: tuple[float, float]) -> list[str]:
-    """A point as the config writes it."""
-    return [in_mm(point[0]), in_mm(point[1])]
-
-
-def place_in_mm(place: str | int | tuple[float, float]) -> str | int | list[str]:
-    """A place as the config writes it."""
-    return point_in_mm(place) if isinstance(place, tuple) else place
 
 
 def in_mm(value_mm: float) -> str:
@@ -157,3 +184,8 @@ def in_per_mm(value_per_mm: float) -> str:
 def in_degrees(value_rad: float) -> str:
     """An angle as the config writes it, `60 deg`."""
     return f"{math.degrees(value_rad):.9g} deg"
+
+
+def in_seconds(value_s: float) -> str:
+    """A time as the config writes it, `120 s`."""
+    return f"{value_s:.9g} s"

@@ -33,7 +33,7 @@ def test_units_become_millimetres(tmp_path: Path) -> None:
     [
         (GOOD.replace("size: 40 mm", "size: 40"), ":3:1 size", "has no unit", "'40 mm'"),
         (GOOD.replace("40 mm", "40 furlong"), ":3:1 size", "unknown unit", "'40 mm'"),
-        (GOOD.replace("40 mm", "-4 mm"), ":3:1 size", "greater than", ""),
+        (GOOD.replace("40 mm", "-4 mm"), ":3:1 size", "-4 mm is out of range", "between 3 mm and 1000 mm"),
         (GOOD.replace("40 mm", "4 km"), ":3:1 size", "unknown unit", ""),
         (GOOD.replace("18 AWG", "18"), ":5:3 wire.gauge", "has no unit", "'18 AWG'"),
         (GOOD.replace("18 AWG", "swg17"), ":5:3 wire.gauge", "known SWG sizes", ""),
@@ -51,7 +51,7 @@ def test_units_become_millimetres(tmp_path: Path) -> None:
         (GOOD + "bail: {at: [3, 4 mm]}\n", ":7:8 bail.at", "has no unit", ""),
         (GOOD + "decomposition: {seed: many}\n", ":7:17 decomposition.seed", "'many'", ""),
         (GOOD.replace("drawing: bee.png\n", ""), ":1:1 drawing", "missing", "add it"),
-        (GOOD.replace("name: bee", "name: ../bee"), ":1:1 name", "pattern", ""),
+        (GOOD.replace("name: bee", "name: ../bee"), ":1:1 name", "can't be the name", "'bee'"),
         ("- a list\n", "bee.yaml", "not a block of keys", "drawing:"),
         ("name: [", ":", "not valid YAML", "quotes"),
         ("", "bee.yaml", "not a block of keys", ""),

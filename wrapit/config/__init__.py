@@ -5,6 +5,7 @@ from wrapit.config.decomposition import DecompositionConfig, WeightsConfig
 from wrapit.config.jig import JigConfig, SeatConfig
 from wrapit.config.loading import load_config
 from wrapit.config.locking import lock_text, schema
+from wrapit.config.naming import named_after, safe_name
 from wrapit.config.plate import PlateConfig
 from wrapit.config.root import Config, GuideConfig, WireConfig
 from wrapit.config.tracing import TracingConfig
@@ -22,5 +23,7 @@ __all__ = [
     "WireConfig",
     "load_config",
     "lock_text",
+    "named_after",
+    "safe_name",
     "schema",
 ]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from wrapit.config.block import Block
-from wrapit.config.quantities import Place, PositiveLength
+from wrapit.config.quantities import Place, length
 
 
 class BailConfig(Block):
@@ -19,5 +21,5 @@ class BailConfig(Block):
     `[12 mm, 30 mm]` (as in `drawing.json`, y up), or the number of a junction (as in `drawing.svg`).
     """
 
-    diameter: PositiveLength = 5.0
+    diameter: Annotated[float, length("0.5 mm", "100 mm", "5 mm")] = 5.0
     """Inside of the loop."""

@@ -2,12 +2,33 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from pydantic import BaseModel, ConfigDict
+
+from wrapit.config.ranges import Mark
+
+
+def _complete(schema: dict[str, Any], block: type[BaseModel]) -> None:
+    """Says the range of each quantity in its description (editors show that, not our own keywords), and
+    writes its default as the config does."""
+    for key, value in schema.get("properties", {}).items():
+        ranged = next((each for each in (value, *value.get("anyOf", ())) if "x-minimum" in each), None)
+        if ranged is not None:
+            between = f"Between {ranged['x-minimum']} and {ranged['x-maximum']}."
+            value["description"] = "\n\n".join(filter(None, (value.get("description"), between)))
+        for mark in block.model_fields[key].metadata:
+            if isinstance(mark, Mark) and "default" in value:
+                value["default"] = mark.write(value["default"])
 
 
 class Block(BaseModel):
     """Frozen; unknown keys are refused, so that a typing mistake never passes as a default."""
 
     model_config = ConfigDict(
-        extra="forbid", frozen=True, validate_default=False, use_attribute_docstrings=True
+        extra="forbid",
+        frozen=True,
+        validate_default=False,
+        use_attribute_docstrings=True,
+        json_schema_extra=_complete,
     )

@@ -2,45 +2,51 @@
 
 from __future__ import annotations
 
-from typing import Literal
+import math
+from typing import Annotated, Final, Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from wrapit.config.block import Block
-from wrapit.config.quantities import PositiveLength
+from wrapit.config.quantities import Numbered, length, number, whole
 
 Operator = Literal["join", "split", "permute", "bridge"]
+
+MOST_ITERATIONS: Final = 100_000_000
+"""Of the search by annealing: hours of work."""
 
 
 class WeightsConfig(Block):
     """The weights of the energy (paper, section 4.2)."""
 
-    smoothness: float = Field(default=0.1, ge=0)
+    smoothness: Annotated[float, number(0, 1_000)] = 0.1
     """Cost of one radian of bend where a wire passes a junction; above 0.106 more wires may win."""
 
-    robustness: float = Field(default=0.9, ge=0)
+    robustness: Annotated[float, number(0, 1_000)] = 0.9
     """Cost of a wire that touches the others at one junction only; above 1 it may buy a wire."""
 
-    bridges: float = Field(default=0.1, ge=0)
+    bridges: Annotated[float, number(0, 1_000)] = 0.1
     """Cost of each added bridge."""
 
-    symmetry: float = Field(default=0.0, ge=0)
+    symmetry: Annotated[float, number(0, 1_000)] = 0.0
     """Cost of each pair of mirrored junctions that wires pass in unlike ways."""
 
 
 class AnnealingConfig(Block):
     """Schedule of the paper's Algorithm 1, read by the solver `annealing`."""
 
-    temperature: float = Field(default=100.0, gt=0)
+    temperature: Annotated[float, number(1e-9, 1e9)] = 100.0
     """Temperature at the start."""
 
-    cooling: float = Field(default=1e-4, ge=1e-7, lt=1)
+    cooling: Annotated[float, number(1e-7, 0.99)] = 1e-4
     """Share of the temperature lost in each iteration."""
 
-    end_temperature: float = Field(default=1e-4, gt=0)
+    end_temperature: Annotated[float, number(1e-12, 1e6)] = 1e-4
     """The search ends below this temperature."""
 
-    operators: tuple[Operator, ...] = Field(default=("join", "split", "permute", "bridge"), min_length=1)
+    operators: tuple[Operator, ...] = Field(
+        default=("join", "split", "permute", "bridge"), min_length=1, max_length=20
+    )
     """The changes that are tried, each as often as the others."""
 
     @field_validator("operators")
@@ -50,11 +56,28 @@ class AnnealingConfig(Block):
             raise ValueError("without 'join' every segment stays a wire of its own; add 'join'")
         return operators
 
+    @model_validator(mode="after")
+    def _ends(self) -> AnnealingConfig:
+        start, end = self.temperature, self.end_temperature
+        if end >= start:
+            raise ValueError(
+                f"the search would end at {end:g}, before it starts at {start:g}; "
+                "choose an end_temperature below temperature"
+            )
+        iterations = math.log(end / start) / math.log1p(-self.cooling)
+        if iterations > MOST_ITERATIONS:
+            enough = -math.expm1(math.log(end / start) / MOST_ITERATIONS)
+            raise ValueError(
+                f"this schedule takes {iterations:.3g} iterations, more than {MOST_ITERATIONS:,}; "
+                f"choose a cooling of {math.ceil(enough * 1e9) / 1e9:g} or more"
+            )
+        return self
+
 
 class ExactConfig(Block):
     """Read by the solver `exact`."""
 
-    budget: int = Field(default=2_000_000, ge=0)
+    budget: Annotated[int, whole(0, 1_000_000_000)] = 2_000_000
     """Work that integer programming may take for each piece of the drawing, counted as unknowns ×
     nodes of its search, not in seconds, so that every machine finds the same. Most drawings need none."""
 
@@ -62,28 +85,28 @@ class ExactConfig(Block):
 class ConstraintConfig(Block):
     """One wish about the wires; `drawing.svg` shows the numbers of segments and junctions."""
 
-    same_wire: tuple[int, ...] | None = Field(default=None, min_length=2)
+    same_wire: tuple[Numbered, ...] | None = Field(default=None, min_length=2, max_length=1000)
     """These segments lie on one wire."""
 
-    different_wire: tuple[int, ...] | None = Field(default=None, min_length=2)
+    different_wire: tuple[Numbered, ...] | None = Field(default=None, min_length=2, max_length=1000)
     """Each of these segments lies on another wire."""
 
-    through: tuple[int, int] | None = None
+    through: tuple[Numbered, Numbered] | None = None
     """A wire passes from one of these segments straight into the other."""
 
-    not_through: tuple[int, int] | None = None
+    not_through: tuple[Numbered, Numbered] | None = None
     """No wire passes from one of these segments into the other."""
 
-    at: int | None = None
+    at: Numbered | None = None
     """The junction of `through` or `not_through`, where the two segments meet at two."""
 
-    start_at: int | None = None
+    start_at: Numbered | None = None
     """A wire starts or ends at this junction."""
 
-    cut_at: int | None = None
+    cut_at: Numbered | None = None
     """All wires end at this junction; none passes it."""
 
-    max_wire_length: PositiveLength | None = None
+    max_wire_length: Annotated[float, length("1 mm", "100 m", "300 mm")] | None = None
     """No wire is longer along the drawing: what is left on the spool, less the tails."""
 
     @model_validator(mode="after")
@@ -105,7 +128,7 @@ class DecompositionConfig(Block):
     solver: Literal["exact", "annealing"] = "exact"
     """`exact`: the proven best; `annealing`: the paper's search."""
 
-    seed: int = Field(default=1, ge=0)
+    seed: Annotated[int, whole(0, 2**53 - 1)] = 1
     """Start of the random numbers; the same seed gives the same wires."""
 
     weights: WeightsConfig = WeightsConfig()
@@ -121,7 +144,7 @@ class DecompositionConfig(Block):
     )
     """`auto`: a wire that hangs on one junction is taken in by its neighbour and doubled back."""
 
-    constraints: tuple[ConstraintConfig, ...] = ()
+    constraints: tuple[ConstraintConfig, ...] = Field(default=(), max_length=1000)
     """Wishes about the wires."""
 
     exact: ExactConfig = ExactConfig()

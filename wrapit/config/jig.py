@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from wrapit.config.block import Block
-from wrapit.config.quantities import Angle, Curvature, Length, Point, PositiveLength
+from wrapit.config.quantities import Point, angle, curvature, duration, length, number
 
 
 class SeatConfig(Block):
@@ -17,16 +17,16 @@ class SeatConfig(Block):
     at: Point
     """Its middle, such as `[12 mm, 30 mm]`: a point of the drawing, as in `drawing.json` (y up)."""
 
-    diameter: PositiveLength
+    diameter: Annotated[float, length("0.3 mm", "200 mm", "6 mm")]
     """Of the bead or stone; the pocket is wider by the clearance on each side.
 
     Wires pass its middle at half the pocket and half their own thickness or more.
     """
 
-    depth: PositiveLength = 1.5
+    depth: Annotated[float, length("0.1 mm", "50 mm", "1.5 mm")] = 1.5
     """How deep it sits in the plate."""
 
-    post: Length = 0.0
+    post: Annotated[float, length("0 mm", "50 mm", "1.2 mm")] = 0.0
     """Diameter of a post in its middle, a little thinner than the hole of a drilled bead; 0 mm for none."""
 
 
@@ -36,63 +36,63 @@ class JigConfig(Block):
     kind: Literal["printed"] = "printed"
     """The jig is made for a 3D printer; the laser-cut one has its own block, `plate`."""
 
-    turn_curvature: Curvature = 0.08
+    turn_curvature: Annotated[float, curvature("0.001 /mm", "10 /mm", "0.08 /mm")] = 0.08
     """A wire needs a wall where it bends more sharply than this (0.08 /mm is a radius of 12.5 mm)."""
 
-    turn_angle: Angle = math.radians(25)
+    turn_angle: Annotated[float, angle("0 deg", "360 deg", "25 deg")] = math.radians(25)
     """Turns that bend the wire by less in total get no wall."""
 
-    long_segment: PositiveLength = 20.0
+    long_segment: Annotated[float, length("0.5 mm", "1000 mm", "20 mm")] = 20.0
     """Straighter stretches longer than this get a wall too."""
 
     split: Literal["auto", "single", "per-wire"] = "auto"
     """One jig for all wires, or several; auto splits where a single jig would hold a wire badly."""
 
-    min_turn_support: float = Field(default=0.6, ge=0, le=1)
+    min_turn_support: Annotated[float, number(0, 1)] = 0.6
     """Auto splits when a wire would have wall along less than this share of its turns."""
 
-    split_turn_support: float = Field(default=0.9, ge=0, le=1)
+    split_turn_support: Annotated[float, number(0, 1)] = 0.9
     """Once split, wires share a jig only if each has wall along this share of its turns (or can't alone)."""
 
-    least_support: float = Field(default=0.3, ge=0, le=1)
+    least_support: Annotated[float, number(0, 1)] = 0.3
     """A piece can't be made as asked when walls would hold less than this share of its turns and long
     stretches; 0 makes it all the same. A wire whose turns are held less than this is an error in the report.
     """
 
-    wall_thickness: PositiveLength = 3.5
+    wall_thickness: Annotated[float, length("0.2 mm", "50 mm", "3.5 mm")] = 3.5
     """Thickness of the walls, where there is room for it."""
 
-    clearance: Length = 0.2
+    clearance: Annotated[float, length("0 mm", "5 mm", "0.2 mm")] = 0.2
     """Gap between wire and wall on each side."""
 
-    min_wall_width: PositiveLength = 0.8
+    min_wall_width: Annotated[float, length("0.05 mm", "20 mm", "0.8 mm")] = 0.8
     """Thinner walls can't be printed and are dropped."""
 
     post_bends: bool = True
     """Round corners of the drawing at least so wide that a post of `min_wall_width` fits inside the bend."""
 
-    min_wall_area: float = Field(default=2.0, ge=0)
+    min_wall_area: Annotated[float, number(0, 1_000)] = 2.0
     """Smaller walls (mm²) can't be printed and are dropped."""
 
-    min_wall_height: PositiveLength = 4.0
+    min_wall_height: Annotated[float, length("0.1 mm", "100 mm", "4 mm")] = 4.0
     """Walls are at least this high; where wires cross they get room for one layer more."""
 
-    lead_in: Length = 0.3
+    lead_in: Annotated[float, length("0 mm", "10 mm", "0.3 mm")] = 0.3
     """The top of each wall is set back by this much, over as much of its height, to let wire in easily."""
 
-    base_thickness: PositiveLength = 3.0
+    base_thickness: Annotated[float, length("0.2 mm", "100 mm", "3 mm")] = 3.0
     """Thickness of the plate."""
 
-    margin: Length = 5.0
+    margin: Annotated[float, length("0 mm", "200 mm", "5 mm")] = 5.0
     """Plate around the walls and wires."""
 
-    corner_radius: Length = 3.0
+    corner_radius: Annotated[float, length("0 mm", "200 mm", "3 mm")] = 3.0
     """Rounding of the plate's corners."""
 
-    min_hole: PositiveLength = 2.0
+    min_hole: Annotated[float, length("0.1 mm", "50 mm", "2 mm")] = 2.0
     """Smallest start hole; thicker wires get their diameter + 0.5 mm."""
 
-    tail_slot: Length = 0.8
+    tail_slot: Annotated[float, length("0 mm", "50 mm", "0.8 mm")] = 0.8
     """Start holes are this much longer in the direction of the wire's tail, so that it can be bent down."""
 
     springback: Literal["report", "compensate"] = "report"
@@ -107,20 +107,23 @@ class JigConfig(Block):
     pins: bool = True
     """Holes for pins inside turns that are too tight for a wall."""
 
-    seats: tuple[SeatConfig, ...] = ()
+    seats: tuple[SeatConfig, ...] = Field(default=(), max_length=200)
     """Seats for beads or stones, `[{at: [12 mm, 30 mm], diameter: 6 mm}]`; the laser-cut jig has none."""
 
     numbers: bool = True
     """Engrave each wire's number beside the hole where it starts."""
 
-    screw_hole: Length = 0.0
+    screw_hole: Annotated[float, length("0 mm", "20 mm", "3 mm")] = 0.0
     """Diameter of a screw hole at each corner of the plate; 0 mm for none."""
 
-    bed_width: PositiveLength = 220.0
+    bed_width: Annotated[float, length("20 mm", "5 m", "220 mm")] = 220.0
     """Width of the printer's bed."""
 
-    bed_depth: PositiveLength = 220.0
+    bed_depth: Annotated[float, length("20 mm", "5 m", "220 mm")] = 220.0
     """Depth of the printer's bed."""
 
-    stl_tolerance: PositiveLength = 0.005
+    time_limit: Annotated[float, duration("1 s", "24 h", "120 s")] | None = None
+    """How long making the jig's solids may take; 120 s and 60 s more for each wire unless given."""
+
+    stl_tolerance: Annotated[float, length("0.0001 mm", "1 mm", "0.005 mm")] = 0.005
     """Largest distance of the STL's facets from the true surface."""

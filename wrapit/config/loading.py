@@ -4,111 +4,100 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import UnionType
-from typing import Any, get_args
+from typing import Any, Final, get_args
 
 from pydantic import BaseModel, ValidationError
 
+from wrapit.config.budgets import DEEPEST
+from wrapit.config.naming import named_after
+from wrapit.config.reading import read_blocks, read_yaml
 from wrapit.config.root import Config
 from wrapit.errors import ConfigError
+from wrapit.units import printable, shortened, shown
+
+LONGEST_OVERRIDE: Final = 10_000
 
 
 def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     """The config in `path`, with `--set` overrides such as `wire.gauge=20 AWG` applied.
 
+    Where it has no name it gets that of its file, made safe (`naming.named_after`).
+
     Raises ConfigError with `file:line:column key` for the first mistake.
     """
-    data = _read_yaml(path)
+    written = read_blocks(path)
+    data = _plain(written)
     for override in overrides:
         _apply(data, override)
     try:
-        config = Config.model_validate(_plain(data))
+        config = Config.model_validate(data)
     except ValidationError as error:
-        raise _first_mistake(error, data, path, overrides) from None
-    return config if config.name else config.model_copy(update={"name": path.stem})
+        raise _first_mistake(error, data, _Source(written, path, overrides)) from None
+    return config if config.name else config.model_copy(update={"name": named_after(path)[0]})
 
 
-def _read_yaml(path: Path) -> dict[str, Any]:
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+@dataclass(frozen=True)
+class _Source:
+    """Where the data is from: `written` is the file's, and knows its lines."""
 
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise ConfigError("no such config", str(path), "give the path of a .yaml file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(
-            f"the config can't be read ({_reason(error)})", str(path), "give a YAML text file"
-        ) from None
-    try:
-        data = YAML(typ="rt").load(text)
-    except MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        place = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
-        problem = error.problem or error.context or "not valid YAML"
-        raise ConfigError(
-            f"not valid YAML: {problem}", place, "check indentation, colons and quotes"
-        ) from None
-    except (YAMLError, ValueError) as error:
-        raise ConfigError(f"not valid YAML: {error}", str(path), "check indentation and quotes") from None
-    if not isinstance(data, dict):
-        raise ConfigError(
-            "the config is not a block of keys", str(path), "start with 'drawing: my-drawing.png'"
-        )
-    return data
-
-
-def _reason(error: Exception) -> str:
-    return (getattr(error, "strerror", None) or str(error)).lower()
+    written: dict[str, Any]
+    path: Path
+    overrides: Sequence[str]
 
 
 def _apply(data: dict[str, Any], override: str) -> None:
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
     key, equals, text = override.partition("=")
-    where = f"--set {override}"
-    if not equals or not key:
+    where, blocks = _set(override), key.split(".")
+    if not equals or not all(blocks) or not key.isprintable():
         raise ConfigError("not of the form key=value", where, "write for example --set wire.gauge='20 AWG'")
-    try:
-        value = YAML(typ="safe").load(text)
-    except YAMLError:
-        raise ConfigError(f"the value {text!r} is not valid YAML", where, "put quotes around it") from None
-    *blocks, last = key.split(".")
+    if len(override) > LONGEST_OVERRIDE or len(blocks) > DEEPEST:
+        raise ConfigError("this is too long or too deep", where, "see `wrapit schema` for the keys")
     inner: Any = data
-    for name in blocks:
+    for name in blocks[:-1]:
         inner = inner.setdefault(name, {}) if isinstance(inner, dict) else inner
     if not isinstance(inner, dict):
         raise ConfigError(
-            f"{'.'.join(blocks)} is no block of keys", where, "see `wrapit schema` for the keys"
+            f"{'.'.join(blocks[:-1])} is no block of keys", where, "see `wrapit schema` for the keys"
         )
-    inner[last] = value
+    try:
+        inner[blocks[-1]] = _plain(read_yaml(text, where))
+    except ConfigError as error:
+        raise ConfigError(error.problem, where, error.remedy) from None  # one line needs no line number
+
+
+def _set(override: str) -> str:
+    return f"--set {shortened(printable(override), 80)}"
 
 
 def _plain(value: Any) -> Any:
     """ruamel's annotated containers and scalars as plain ones, so that type errors read well."""
+    from ruamel.yaml.scalarbool import ScalarBoolean
+
     if isinstance(value, dict):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, list):
         return [_plain(item) for item in value]
+    if isinstance(value, ScalarBoolean):  # one with an anchor, which is a whole number for Python
+        return bool(value)
     for kind in (bool, int, float, str):
         if isinstance(value, kind):
             return kind(value)
     return value if value is None else str(value)
 
 
-def _first_mistake(
-    error: ValidationError, data: dict[str, Any], path: Path, overrides: Sequence[str]
-) -> ConfigError:
+def _first_mistake(error: ValidationError, data: dict[str, Any], source: _Source) -> ConfigError:
     mistake = error.errors(include_url=False)[0]
     keys = _user_keys(mistake["loc"], data)
     dotted = ".".join(map(str, keys))
     problem, remedy = _explain(mistake, keys)
-    for override in overrides:
+    for override in reversed(source.overrides):
         if f"{dotted}.".startswith(f"{override.partition('=')[0]}."):
-            return ConfigError(problem, f"--set {override}", remedy)
-    return ConfigError(problem, f"{_position(data, keys, path)} {dotted}".rstrip(), remedy)
+            return ConfigError(problem, _set(override), remedy)
+    place = f"{_position(source.written, keys, source.path)} {shortened(printable(dotted), 80)}"
+    return ConfigError(problem, place.rstrip(), remedy)
 
 
 def _user_keys(loc: Sequence[str | int], data: Any) -> list[str | int]:
@@ -134,24 +123,29 @@ def _position(data: Any, keys: Sequence[str | int], path: Path) -> str:
             break
         line, column = marks.data[key][:2]
         inner = inner[key]
-    return f"{path}:{line + 1}:{column + 1}"
+    return f"{printable(str(path))}:{line + 1}:{column + 1}"
 
 
 def _explain(mistake: Mapping[str, Any], keys: Sequence[str | int]) -> tuple[str, str]:
     kind, context = mistake["type"], mistake.get("ctx", {})
     if kind == "extra_forbidden":
-        return "unknown key", _nearest(str(keys[-1]), _known_keys(keys[:-1]))
+        return "unknown key", _nearest(str(keys[-1])[:80], _known_keys(keys[:-1]))
     if kind == "missing":
         return "this key is missing", "add it; `wrapit schema` describes every key"
     if kind == "value_error":
         problem, _, remedy = str(context["error"]).partition("; ")
         return problem, remedy
     if kind in ("literal_error", "union_tag_invalid"):
-        expected = str(context.get("expected") or context.get("expected_tags"))
+        given, expected = mistake["input"], str(context.get("expected") or context.get("expected_tags"))
         names = [name.strip(" '") for name in expected.replace(" or ", ", ").split(",")]
-        return f"{mistake['input']!r} is not one of {expected}", _nearest(str(mistake["input"]), names)
+        return f"{shown(given)} is not one of {expected}", _nearest(shown(given), names)
+    if kind in ("too_long", "too_short"):
+        count, bound = context["actual_length"], context.get("max_length", context.get("min_length"))
+        bound_is = "most" if kind == "too_long" else "least"
+        return f"a list of {count} is too {kind[4:]}", f"give at {bound_is} {bound}"
     text = str(mistake["msg"])
-    return f"{text[0].lower()}{text[1:]}, but got {mistake['input']!r}", "`wrapit schema` describes every key"
+    problem = f"{text[0].lower()}{text[1:]}, but got {shown(mistake['input'])}"
+    return problem, "`wrapit schema` describes every key"
 
 
 def _known_keys(blocks: Sequence[str | int]) -> list[str]:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
-from pydantic import Field
+from typing import Annotated, Literal
 
 from wrapit.config.block import Block
-from wrapit.config.quantities import Length, PositiveLength
+from wrapit.config.quantities import length, number
 
 ProfileName = Literal["lightburn", "boxes", "service-red", "snijlab", "plain"]
 CurveStyle = Literal["spline", "arc", "polyline"]
@@ -25,40 +23,40 @@ class PlateConfig(Block):
     curves: CurveStyle = "spline"
     """How curves are written: exactly, or as arcs or short lines within `tolerance`."""
 
-    tolerance: PositiveLength = 0.01
+    tolerance: Annotated[float, length("0.0001 mm", "1 mm", "0.01 mm")] = 0.01
     """Largest distance of arcs or short lines from the exact curve."""
 
-    kerf: Length = 0.15
+    kerf: Annotated[float, length("0 mm", "5 mm", "0.15 mm")] = 0.15
     """Full width that the laser removes: about 0.15 mm in acrylic, 0.20 mm in plywood, 0.18 mm in MDF.
 
     `wrapit coupon` writes a test piece to measure yours.
     """
 
-    fit: Length = 0.05
+    fit: Annotated[float, length("0 mm", "2 mm", "0.05 mm")] = 0.05
     """Gap on each side between a wall piece and the pocket that it is glued into."""
 
-    sheet: PositiveLength = 3.0
+    sheet: Annotated[float, length("0.2 mm", "50 mm", "3 mm")] = 3.0
     """Thickness of the sheet of the bottom plate and of the plate with the pockets."""
 
-    wall_sheet: PositiveLength = 6.0
+    wall_sheet: Annotated[float, length("0.2 mm", "50 mm", "6 mm")] = 6.0
     """Thickness of the sheet of the wall pieces; the pocket swallows `sheet` of it."""
 
-    sheet_width: PositiveLength = 300.0
+    sheet_width: Annotated[float, length("20 mm", "5 m", "300 mm")] = 300.0
     """Width of the sheets that the laser takes."""
 
-    sheet_height: PositiveLength = 200.0
+    sheet_height: Annotated[float, length("20 mm", "5 m", "200 mm")] = 200.0
     """Height of the sheets that the laser takes."""
 
-    spacing: PositiveLength = 3.0
+    spacing: Annotated[float, length("0.1 mm", "100 mm", "3 mm")] = 3.0
     """Distance between parts on the sheet, and from its edge."""
 
-    pin: PositiveLength = 2.0
+    pin: Annotated[float, length("0.2 mm", "20 mm", "2 mm")] = 2.0
     """Diameter of the pins (cocktail sticks, nails) that keep the two plates flush while they are glued."""
 
-    min_wall_width: PositiveLength = 2.0
+    min_wall_width: Annotated[float, length("0.05 mm", "50 mm", "2 mm")] = 2.0
     """Thinner wall pieces break or burn and are left out."""
 
-    min_wall_area: float = Field(default=6.0, ge=0)
+    min_wall_area: Annotated[float, number(0, 1_000)] = 6.0
     """Smaller wall pieces (mm²) can't be handled and are left out."""
 
     reference_bar: bool = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Final, Literal
 
 from pydantic import Field, field_validator
 
@@ -10,11 +10,15 @@ from wrapit.config.bail import BailConfig
 from wrapit.config.block import Block
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.config.jig import JigConfig
+from wrapit.config.naming import LONGEST_NAME, LONGEST_PATH, name_problem, path_problem
 from wrapit.config.plate import PlateConfig
-from wrapit.config.quantities import Gauge, Length, PositiveLength
+from wrapit.config.quantities import length, whole, wire_gauge
 from wrapit.config.tracing import TracingConfig
 from wrapit.materials import MetalName, Temper
 from wrapit.units import awg_diameter_mm
+
+NAME_PATTERN: Final = r'^(?![ .-])[^\\/:*?"<>|\x00-\x1f]*(?<![ .])$'
+"""For editors, which know no Unicode classes: `naming` says more exactly what a name is."""
 
 Output = Literal["step", "stl", "3mf", "dxf", "guide"]
 
@@ -22,7 +26,7 @@ Output = Literal["step", "stl", "3mf", "dxf", "guide"]
 class WireConfig(Block):
     """The metal."""
 
-    gauge: Gauge = awg_diameter_mm(18)
+    gauge: Annotated[float, wire_gauge("0.05 mm", "10 mm", "18 AWG")] = awg_diameter_mm(18)
     """Thickness: `18 AWG`, `swg18` or a diameter such as `1.0 mm`."""
 
     metal: MetalName = "copper"
@@ -35,26 +39,26 @@ class WireConfig(Block):
 class GuideConfig(Block):
     """The step-by-step guide."""
 
-    binding_gauge: Gauge = awg_diameter_mm(28)
+    binding_gauge: Annotated[float, wire_gauge("0.05 mm", "3 mm", "28 AWG")] = awg_diameter_mm(28)
     """Thin wire that ties the wires together."""
 
-    binding_turns: int = Field(default=5, ge=1, le=50)
+    binding_turns: Annotated[int, whole(1, 50)] = 5
     """Turns of binding wire at each connection."""
 
-    margin: Length = 50.0
+    margin: Annotated[float, length("0 mm", "1 m", "50 mm")] = 50.0
     """Extra wire to hold and bend, both ends of a wire together (at least 15 % of its length)."""
 
 
 class Config(Block):
     """One piece of jewellery: a drawing, a size, a wire; the rest has defaults."""
 
-    name: str = Field(default="", pattern=r"^[\w][\w .-]*$|^$")
+    name: str = Field(default="", json_schema_extra={"maxLength": LONGEST_NAME, "pattern": NAME_PATTERN})
     """Name of the piece and of its output folder; the config's file name unless given."""
 
-    drawing: str = Field(min_length=1)
+    drawing: str = Field(json_schema_extra={"minLength": 1, "maxLength": LONGEST_PATH})
     """The drawing, relative to the config: .png .jpg .bmp .tif .webp, .svg or .json."""
 
-    size: PositiveLength | None = None
+    size: Annotated[float, length("3 mm", "1000 mm", "40 mm")] | None = None
     """Longest side of the piece; needed for bitmaps, optional for SVG and JSON drawings."""
 
     wire: WireConfig = WireConfig()
@@ -69,12 +73,19 @@ class Config(Block):
     pair: bool = False
     """Also write the jig and the wires of the mirror image, for a pair of earrings."""
 
-    outputs: tuple[Output, ...] = ("step", "stl", "3mf", "dxf", "guide")
+    outputs: tuple[Output, ...] = Field(default=("step", "stl", "3mf", "dxf", "guide"), max_length=5)
     """Which files to write beside the drawing, the wires and the report."""
 
-    @field_validator("size")
+    @field_validator("name")
     @classmethod
-    def _plausible(cls, size_mm: float | None) -> float | None:
-        if size_mm is not None and not 3 <= size_mm <= 1000:
-            raise ValueError(f"{size_mm:g} mm is no size for wire jewellery; choose between 3 mm and 1000 mm")
-        return size_mm
+    def _names_a_folder(cls, name: str) -> str:
+        if name and (problem := name_problem(name)):
+            raise ValueError(problem)
+        return name
+
+    @field_validator("drawing")
+    @classmethod
+    def _is_a_path(cls, drawing: str) -> str:
+        if problem := path_problem(drawing):
+            raise ValueError(problem)
+        return drawing

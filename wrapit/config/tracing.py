@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
-
-from pydantic import Field
+from typing import Annotated, Literal
 
 from wrapit.config.block import Block
-from wrapit.config.quantities import Angle, Length
+from wrapit.config.quantities import angle, length, number, whole
 
 
 class TracingConfig(Block):
     """How lines are found in a bitmap; JSON and SVG drawings are taken as they are drawn."""
 
-    corner_angle: Angle = math.radians(60)
+    corner_angle: Annotated[float, angle("1 deg", "180 deg", "60 deg")] = math.radians(60)
     """A turn sharper than this becomes a corner (a junction of two segments)."""
 
-    shortest_segment: Length = 0.8
+    shortest_segment: Annotated[float, length("0 mm", "100 mm", "0.8 mm")] = 0.8
     """Segments of the real piece that are shorter can't be bent by hand: they are merged or dropped."""
 
-    tolerance: float = Field(default=0.04, gt=0, le=0.5)
+    tolerance: Annotated[float, number(0.001, 0.5)] = 0.04
     """Largest distance of the fitted curves from the centre of the ink, in stroke widths."""
 
     components: Literal["largest", "join"] = "largest"
@@ -29,5 +27,5 @@ class TracingConfig(Block):
     filled: Literal["refuse", "outline"] = "refuse"
     """Filled shapes: refuse them (they are no lines), or trace their outlines as lines."""
 
-    pixel_limit: int = Field(default=120_000_000, gt=0)
+    pixel_limit: Annotated[int, whole(1_000, 1_000_000_000)] = 120_000_000
     """Larger images are refused before they are decoded."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from wrapit.config import load_config
-from wrapit.errors import DrawingError, UnheldError
+from wrapit.config import load_config, named_after
+from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
 from wrapit.pipeline.folder import check_target, followed, put_in_place, renamed_beside_others, staged
 from wrapit.pipeline.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
@@ -96,6 +96,17 @@ def _start(
         )
     work = Work(config, drawing_path, until, progress, alternatives)
     work.report.update(reports.head(config, sha256(drawing_path)), until=until, alternatives=alternatives)
+    named, renamed = named_after(config_path)
+    if renamed and named == config.name:
+        work.findings.append(
+            Finding(
+                "note",
+                "renamed",
+                "config",
+                f"the config's file name can't be a folder's on every system, so the piece is called {named!r}",
+                "give it a `name:`",
+            )
+        )
     return work
 
 
