@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.planar import Curve, moved, stretch
+from wrapit.drawing.cutting import moved
+from wrapit.drawing.planar import Curve, stretch
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.bezier import evaluate
 
