@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -26,7 +28,7 @@ def stretches(cubics: FloatArray, starts: ArrayLike, ends: ArrayLike) -> list[Fl
     owner, k, low, high = owner[kept], k[kept], low[kept], high[kept]
     parts = _between(cubics[k % len(cubics)], low, high)
     bounds = np.searchsorted(owner, np.arange(len(start) + 1)).tolist()
-    return [_chained(parts[a:b]) if b > a else None for a, b in zip(bounds, bounds[1:], strict=False)]
+    return [_chained(parts[a:b]) if b > a else None for a, b in itertools.pairwise(bounds)]
 
 
 def moved(cubics: FloatArray, start: FloatArray, end: FloatArray) -> BezierChain:

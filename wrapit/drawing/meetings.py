@@ -46,7 +46,7 @@ def crossings(steps: Steps, closed: list[bool], where: str = "drawing") -> list[
         for contact in _contacts(steps, first[apart], second[apart]):
             found.add(contact)
         if len(found.contacts) > MOST_CONTACTS or pairs > MOST_PAIRS:
-            raise _too_many(steps, where)
+            raise _too_many(steps, int(np.bincount(first).argmax()), where)
     return found.contacts
 
 
@@ -61,13 +61,13 @@ def _contacts(steps: Steps, first: IntArray, second: IntArray) -> Iterator[Conta
         yield Contact(point, ((one, at), (other, there)))
 
 
-def _too_many(steps: Steps, where: str) -> DrawingError:
-    x, y = steps.ends.reshape(-1, 2).mean(axis=0)
+def _too_many(steps: Steps, dense: int, where: str) -> DrawingError:
+    x, y = steps.ends[dense].mean(axis=0)
     return DrawingError(
-        f"the lines cross or run beside each other in more than {MOST_CONTACTS:,} places, most of them around "
-        f"({x:.0f}, {y:.0f}) px",
+        f"the lines cross, or run close beside each other, in more than {MOST_CONTACTS:,} places, "
+        f"many of them near ({x:.1f}, {y:.1f}) px",
         where,
-        "leave out hatching and patterns, or trace a picture of it (.png)",
+        "draw only the lines that are to become wire, without hatching and patterns",
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,8 +13,9 @@ from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.bezier import evaluate
 
 SAMPLES = 24
-# Steps whose neighbours are looked up at once: bounds the memory where very many lie on each other.
-_AT_ONCE = 1024
+# How many meetings of boxes are looked up at a time, about: 8 MB.
+_AT_ONCE = 500_000
+_FIRST = 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +59,7 @@ class Steps:
 
     def pairs(self) -> Iterator[tuple[IntArray, IntArray]]:
         """Pairs of steps whose boxes meet, each once and the earlier step first, in several portions."""
-        for begin in range(0, len(self.ends), _AT_ONCE):
-            first, second = self.tree.query(self._lines[begin : begin + _AT_ONCE])
-            first = first + begin
+        for first, second in queried(self.tree, len(self.ends), lambda some: self._lines[some]):
             apart = first < second
             yield first[apart], second[apart]
 
@@ -103,3 +102,16 @@ def steps_of(curves: list[FloatArray]) -> Steps:
         np.cumsum(count) - count,
         count,
     )
+
+
+def queried(tree: Any, count: int, shapes: Callable[[slice], Any]) -> Iterator[tuple[IntArray, IntArray]]:
+    """Which of `count` shapes meet which of a tree's, by their boxes: numbers of both, in portions.
+
+    The portions get smaller where very many lie on each other, so that memory stays bounded.
+    """
+    begin, size = 0, _FIRST
+    while begin < count:
+        first, second = tree.query(shapes(slice(begin, begin + size)))
+        yield first + begin, second
+        begin += size
+        size = min(4 * size, max(1, size * _AT_ONCE // max(len(first), 1)))
