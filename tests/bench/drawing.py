@@ -226,10 +226,34 @@ def print_memory(side_px: int = 5000) -> None:
             print(f"peak memory, {kind:6} {int(done.stdout) / side_px**2:5.1f} bytes per pixel")
 
 
+def lines_svg(count: int) -> str:
+    """An SVG of thin lines from anywhere to anywhere, nearly a quarter of whose pairs cross."""
+    ends = np.random.default_rng(1).uniform(0, 1000, (count, 4))
+    drawn = "".join(f"M{a} {b}L{c} {d}" for a, b, c, d in ends)
+    path = f'<path fill="none" stroke="black" stroke-width="0.2" d="{drawn}"/>'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" width="1000" height="1000">{path}</svg>'
+
+
+def print_crossings(counts: tuple[int, ...] = (100, 200, 400, 800)) -> None:
+    """Prints the time that SVGs of random lines take, whole and for each segment of the drawing."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "lines.svg"
+        for count in counts:
+            path.write_text(lines_svg(count))
+            begin = time.process_time()
+            drawing, _ = trace(path, TracingConfig(), SIZE_MM)
+            taken_s = time.process_time() - begin
+            print(
+                f"SVG of {count:4} random lines: {len(drawing.segments):7,} segments in {taken_s:5.2f} s, "
+                f"{1e6 * taken_s / len(drawing.segments):4.0f} µs each"
+            )
+
+
 def main(names: list[str] | None = None) -> None:
-    """Prints one row per picture, a summary per kind, and the memory that a large picture takes."""
+    """Prints one row per picture, a summary per kind, the memory of a large one, the time of crossings."""
     if not names:
         print_memory()
+        print_crossings()
     if not (CORPUS / "evaluate.py").exists():
         print("the corpus of drawings is not here; set WRAPIT_CORPUS")
         return

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.planar import Curve, moved, stretch
+from wrapit.drawing.cutting import moved
+from wrapit.drawing.neighbours import Boxes, Course, parallels
+from wrapit.drawing.planar import Curve, stretch
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.bezier import evaluate
 
@@ -22,19 +23,6 @@ _PARALLEL = math.sin(math.radians(15))
 _BISECTIONS = 12
 
 
-@dataclass(frozen=True, eq=False)
-class _Course:
-    """A curve as short steps: points (n, 2), parameters, directions, and lengths from its start."""
-
-    points: FloatArray
-    at: FloatArray
-    along: FloatArray
-
-    @property
-    def directions(self) -> FloatArray:
-        return unit(np.gradient(self.points, axis=0))
-
-
 def without_coincident(
     curves: list[Curve], width: float
 ) -> tuple[list[Curve], list[tuple[FloatArray, float]]]:
@@ -42,24 +30,63 @@ def without_coincident(
 
     Strokes coincide where they run less than 0.3 stroke widths apart for more than 2.5.
     """
+    laid = _Laid(curves, width)
     kept: list[Curve] = []
-    courses: list[_Course] = []
     doubles: list[tuple[FloatArray, float]] = []
-    for curve in curves:
-        course = _course(curve, width)
-        spans = [span for other in courses for span in _spans(curve, course, other, width)]
-        if not spans:
-            rest = [curve]
-        else:
+    for index, curve in enumerate(curves):
+        spans = laid.spans(index)
+        rest = [curve]
+        if spans:
             spans = _united(spans)
             doubles += [_middle(curve, span) for span in spans]
-            rest = _rest(curve, spans, courses, width)
+            rest = _rest(curve, index, spans, laid)
+            laid.replace(index, rest)
         kept += rest
-        courses += [course] if rest == [curve] else [_course(part, width) for part in rest]
     return kept, doubles
 
 
-def _course(curve: Curve, width: float) -> _Course:
+class _Laid:
+    """The curves looked at so far, and what is kept of each, as courses."""
+
+    def __init__(self, curves: list[Curve], width: float) -> None:
+        self.width = width
+        self._curves = curves
+        # Twice a width: a rest's ends move by less than one, and what is near counts within a third of one.
+        self._boxes = Boxes([curve.cubics for curve in curves], 2 * width)
+        apart = self._boxes.apart()
+        self._courses = {k: _course(curve, width) for k, curve in enumerate(curves) if k not in apart}
+        self._parallel = parallels(self._courses, _NEAR * width, _PARALLEL)
+        # Curves of which only parts are left, and those parts.
+        self._parts: dict[int, list[Course]] = {}
+
+    def spans(self, index: int) -> list[tuple[float, float]]:
+        """Where a curve runs on earlier ones, as parameters."""
+        if index not in self._courses:
+            return []
+        whole = self._parallel[index] - self._parts.keys()
+        parts = {k for k in self._boxes.meeting(index) if k in self._parts} if self._parts else set()
+        curve, course = self._curves[index], self._courses[index]
+        others = [other for k in sorted(whole | parts) for other in self._of(k)]
+        return [span for other in others for span in _spans(curve, course, other, self.width)]
+
+    def replace(self, index: int, rest: list[Curve]) -> None:
+        """Says that only parts of a curve are left."""
+        self._parts[index] = [_course(part, self.width) for part in rest]
+
+    def onto(self, point: FloatArray, before: int) -> FloatArray:
+        """The nearest point on the curves before one, if it lies under the same ink."""
+        feet = []
+        for course in (c for k in self._boxes.around(point) if k < before for c in self._of(k)):
+            signed, foot, _ = _offsets(point[None], course)
+            feet.append((abs(float(signed[0])), foot[0]))
+        far, foot = min(feet, key=lambda item: item[0], default=(np.inf, point))
+        return foot if far < 2 * _NEAR * self.width else point
+
+    def _of(self, index: int) -> list[Course]:
+        return self._parts.get(index, [self._courses[index]])
+
+
+def _course(curve: Curve, width: float) -> Course:
     points, at = [], []
     for k, cubic in enumerate(curve.cubics):
         hull = float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum())
@@ -69,14 +96,12 @@ def _course(curve: Curve, width: float) -> _Course:
         at.append((k + t)[: None if last else -1])
     chain = np.concatenate(points)
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(chain, axis=0), axis=1))])
-    return _Course(chain, np.concatenate(at), along)
+    return Course(chain, np.concatenate(at), along)
 
 
-def _offsets(points: FloatArray, other: _Course) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _offsets(points: FloatArray, other: Course) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Signed distance of points from a course, the feet, and the course's directions there."""
-    from scipy.spatial import cKDTree
-
-    _, nearest = cKDTree(other.points).query(points)
+    _, nearest = other.tree.query(points)
     best = np.full(len(points), np.inf)
     signed, feet = np.zeros(len(points)), np.zeros_like(points)
     directions = np.zeros_like(points)
@@ -96,9 +121,9 @@ def _offsets(points: FloatArray, other: _Course) -> tuple[FloatArray, FloatArray
     return signed, feet, directions
 
 
-def _spans(curve: Curve, course: _Course, other: _Course, width: float) -> list[tuple[float, float]]:
+def _spans(curve: Curve, course: Course, other: Course, width: float) -> list[tuple[float, float]]:
     """Parameters from and to which a curve runs on another; over the end of a closed one they go on."""
-    low, high = other.points.min(axis=0) - width, other.points.max(axis=0) + width
+    low, high = other.box[0] - width, other.box[1] + width
     if ((course.points < low) | (course.points > high)).any(axis=1).all():
         return []
     signed, _, directions = _offsets(course.points, other)
@@ -138,7 +163,7 @@ def _runs(near: NDArray[np.bool_], closed: bool) -> list[tuple[int, int]]:
     return runs
 
 
-def _edge(curve: Curve, course: _Course, other: _Course, index: int, step: int, width: float) -> float:
+def _edge(curve: Curve, course: Course, other: Course, index: int, step: int, width: float) -> float:
     """The parameter where a run ends that still includes the point at `index`."""
     count, turns = len(course.at), len(curve.cubics)
     inside = float(course.at[index % count]) + turns * (index // count)
@@ -166,9 +191,7 @@ def _united(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return joined
 
 
-def _rest(
-    curve: Curve, spans: list[tuple[float, float]], courses: list[_Course], width: float
-) -> list[Curve]:
+def _rest(curve: Curve, index: int, spans: list[tuple[float, float]], laid: _Laid) -> list[Curve]:
     """What is left of a curve beside the spans; its new ends lie on the curves that they ran on."""
     count = float(len(curve.cubics))
     ends = [(end, after[0]) for (_, end), after in itertools.pairwise(spans)]
@@ -183,21 +206,12 @@ def _rest(
         cubics = stretch(curve, start, end) if end > start else None
         if cubics is None:
             continue
-        first = _onto(cubics[0, 0], courses, width) if at_start else cubics[0, 0]
-        last = _onto(cubics[-1, 3], courses, width) if at_end else cubics[-1, 3]
+        first = laid.onto(cubics[0, 0], index) if at_start else cubics[0, 0]
+        last = laid.onto(cubics[-1, 3], index) if at_end else cubics[-1, 3]
         chain = moved(cubics, first, last)
-        if chain.length > _REST * width:
+        if chain.length > _REST * laid.width:
             rest.append(Curve(chain.points, closed=False))
     return rest
-
-
-def _onto(point: FloatArray, courses: list[_Course], width: float) -> FloatArray:
-    feet = []
-    for course in courses:
-        signed, foot, _ = _offsets(point[None], course)
-        feet.append((abs(float(signed[0])), foot[0]))
-    far, foot = min(feet, key=lambda item: item[0])
-    return foot if far < 2 * _NEAR * width else point
 
 
 def _middle(curve: Curve, span: tuple[float, float]) -> tuple[FloatArray, float]:

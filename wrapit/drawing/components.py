@@ -9,6 +9,7 @@ import numpy as np
 
 from wrapit.drawing.assembly import Piece
 from wrapit.drawing.network import Change, Notice
+from wrapit.drawing.places import root
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.bezier import split
 
@@ -72,18 +73,15 @@ def _leave_out(result: Connected, group: list[Piece], named: bool) -> None:
 
 def _groups(pieces: list[Piece]) -> list[list[Piece]]:
     """Connected groups of pieces, the longest first."""
-    parent: dict[int, int] = {}
-
-    def root(node: int) -> int:
-        while parent.setdefault(node, node) != node:
-            node = parent[node]
-        return node
-
+    number = {
+        node: k for k, node in enumerate({node for piece in pieces for node in (piece.start, piece.end)})
+    }
+    parent = list(range(len(number)))
     for piece in pieces:
-        parent[root(piece.start)] = root(piece.end)
+        parent[root(parent, number[piece.start])] = root(parent, number[piece.end])
     groups: dict[int, list[Piece]] = {}
     for piece in pieces:
-        groups.setdefault(root(piece.start), []).append(piece)
+        groups.setdefault(root(parent, number[piece.start]), []).append(piece)
     if len(groups) == 1:
         return [pieces]
     return sorted(groups.values(), key=lambda group: -sum(piece.curve.length for piece in group))

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.geometry import FloatArray
-from wrapit.geometry.bezier import evaluate
+from wrapit.drawing.crossing import crossings_near, points_at
+from wrapit.drawing.steps import Steps
+from wrapit.errors import DrawingError
+from wrapit.geometry import FloatArray, IntArray
 
-_SAMPLES = 24
+# Parameters closer than this are one place.
+_SAME = 1e-6
+# On one curve, meeting itself: closer than this is a step and its neighbour.
+_ITSELF = 1e-3
+# What takes about a minute on a laptop, as `python -m tests.bench.drawing` measures it; no drawing of a
+# thing to be bent from wire has a hundredth of it.
+MOST_CONTACTS = 200_000
+MOST_PAIRS = 200_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,128 +33,107 @@ class Contact:
     on: tuple[tuple[int, float], ...]
 
 
-@dataclass(frozen=True, eq=False)
-class _Steps:
-    """All curves as short straight steps (m, 2, 2), with curve, parameters, and place in the curve."""
+def crossings(steps: Steps, closed: list[bool], where: str = "drawing") -> list[Contact]:
+    """All crossings of curves with each other and with themselves, exact to rounding.
 
-    ends: FloatArray
-    curve: FloatArray
-    start: FloatArray
-    end: FloatArray
-
-
-def crossings(curves: list[FloatArray], closed: list[bool]) -> list[Contact]:
-    """All crossings of curves with each other and with themselves, exact to rounding."""
-    from shapely import STRtree, linestrings
-
-    steps = _steps(curves)
-    lines = linestrings(steps.ends)
-    first, second = STRtree(lines).query(lines)
-    apart = first < second
-    first, second = first[apart], second[apart]
-    found: list[Contact] = []
-    size = float(np.ptp(steps.ends.reshape(-1, 2), axis=0).max())
-    for i, j in zip(first.tolist(), second.tolist(), strict=True):
-        a, b = int(steps.curve[i]), int(steps.curve[j])
-        if a == b and _adjacent(steps, i, j, len(curves[a]), closed[a]):
-            continue
-        hit = _crossing(curves, steps, i, j, size)
-        if hit is None or (a == b and abs(hit[0] - hit[1]) < 1e-3):
-            continue
-        contact = Contact(_point(curves[a], hit[0]), ((a, hit[0]), (b, hit[1])))
-        if not any(_same(contact, other) for other in found):
-            found.append(contact)
-    return found
+    Raises DrawingError, which names `where`, if there are too many to be a drawing.
+    """
+    found = _Found()
+    pairs = 0
+    for first, second in steps.pairs():
+        pairs += len(first)
+        apart = ~steps.adjacent(first, second, closed)
+        for contact in _contacts(steps, first[apart], second[apart]):
+            found.add(contact)
+        if len(found.contacts) > MOST_CONTACTS or pairs > MOST_PAIRS:
+            raise _too_many(steps, int(np.bincount(first).argmax()), where)
+    return found.contacts
 
 
-def touches(curves: list[FloatArray], closed: list[bool], reach: float) -> list[Contact]:
+def _contacts(steps: Steps, first: IntArray, second: IntArray) -> Iterator[Contact]:
+    rows, at_a, at_b = crossings_near(steps, first, second)
+    a, b = steps.curve[first[rows]], steps.curve[second[rows]]
+    true = (a != b) | (np.abs(at_a - at_b) >= _ITSELF)
+    a, b, at_a, at_b = a[true], b[true], at_a[true], at_b[true]
+    points = points_at(steps, a, at_a)
+    rest = (a.tolist(), at_a.tolist(), b.tolist(), at_b.tolist())
+    for point, one, at, other, there in zip(points, *rest, strict=True):
+        yield Contact(point, ((one, at), (other, there)))
+
+
+def _too_many(steps: Steps, dense: int, where: str) -> DrawingError:
+    x, y = steps.ends[dense].mean(axis=0)
+    return DrawingError(
+        f"the lines cross, or run close beside each other, in more than {MOST_CONTACTS:,} places, "
+        f"many of them near ({x:.1f}, {y:.1f}) px",
+        where,
+        "draw only the lines that are to become wire, without hatching and patterns",
+    )
+
+
+class _Found:
+    """Contacts, each once however often it is found."""
+
+    def __init__(self) -> None:
+        self.contacts: list[Contact] = []
+        self._near: dict[tuple[int, int, int], list[Contact]] = {}
+
+    def add(self, contact: Contact) -> None:
+        """Adds a contact that isn't there yet."""
+        (one, at), (other, there) = contact.on
+        cell = int(at / _SAME)
+        for near in (cell - 1, cell, cell + 1):
+            if any(_same(contact, known) for known in self._near.get((one, other, near), ())):
+                return
+        self.contacts.append(contact)
+        # A curve that meets itself may be found from either side.
+        for own in (at, there) if one == other else (at,):
+            self._near.setdefault((one, other, int(own / _SAME)), []).append(contact)
+
+
+def touches(curves: list[FloatArray], closed: list[bool], reach: float, steps: Steps) -> list[Contact]:
     """Ends of open curves that come closer than `reach` to a curve (their own far part included)."""
-    steps = _steps(curves)
     found = []
     for curve, (cubics, loop) in enumerate(zip(curves, closed, strict=True)):
         if loop:
             continue
-        for at in (0.0, float(len(cubics))):
-            end = _point(cubics, at)
-            contact = _touch(curves, steps, curve, at, end, reach)
+        along = np.diff(steps.ends[steps.of(curve)], axis=1)[:, 0]
+        lengths = np.linalg.norm(along, axis=1)
+        walk = lengths.cumsum()
+        for at, walked in ((0.0, walk - lengths), (float(len(cubics)), walk[-1] - walk)):
+            contact = _touch(curves, steps, curve, at, walked, reach)
             if contact is not None:
                 found.append(contact)
     return found
 
 
 def _touch(
-    curves: list[FloatArray], steps: _Steps, curve: int, at: float, end: FloatArray, reach: float
+    curves: list[FloatArray], steps: Steps, curve: int, at: float, walked: FloatArray, reach: float
 ) -> Contact | None:
-    a, d = steps.ends[:, 0], steps.ends[:, 1] - steps.ends[:, 0]
+    """The contact of one end, if any; `walked` is how far its own steps are from it along the curve."""
+    end = _point(curves[curve], at)
+    near = steps.near(end, reach)
+    # Its own near part is no contact: what lies within a walk of three reaches.
+    own = np.flatnonzero(steps.curve[near] == curve)
+    near = np.delete(near, own[walked[near[own] - steps.of(curve).start] < 3 * reach])
+    if not len(near):
+        return None
+    a, d = steps.ends[near, 0], steps.ends[near, 1] - steps.ends[near, 0]
     share = np.clip(((end - a) * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-18), 0, 1)
     distance = np.linalg.norm(a + share[:, None] * d - end, axis=1)
-    own = steps.curve == curve
-    if own.any():
-        # Its own near part is no contact: what lies within a walk of three reaches.
-        lengths = np.linalg.norm(d[own], axis=1)
-        walk = lengths.cumsum()
-        walk = walk - lengths if at == 0 else walk[-1] - walk
-        distance[np.flatnonzero(own)[walk < 3 * reach]] = np.inf
-    nearest = int(np.argmin(distance))
-    if distance[nearest] > reach:
+    best = int(np.argmin(distance))
+    if distance[best] > reach:
         return None
+    nearest = int(near[best])
     other = int(steps.curve[nearest])
-    t = float(steps.start[nearest] + share[nearest] * (steps.end[nearest] - steps.start[nearest]))
+    t = float(steps.start[nearest] + share[best] * (steps.end[nearest] - steps.start[nearest]))
     t = _straight_on(curves[other], _foot(curves[other], t, end), curves[curve], at, reach)
     for tip in (0.0, float(len(curves[other]))):
         if np.linalg.norm(_point(curves[other], tip) - end) <= min(
-            reach, 1.5 * distance[nearest] + 1e-9 * reach
+            reach, 1.5 * distance[best] + 1e-9 * reach
         ):
             t = tip
     return Contact(_point(curves[other], t), ((other, t), (curve, at)))
-
-
-def _steps(curves: list[FloatArray]) -> _Steps:
-    t = np.linspace(0, 1, _SAMPLES + 1)
-    ends, owner, start = [], [], []
-    for index, cubics in enumerate(curves):
-        points = evaluate(cubics, t)
-        ends.append(np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 2))
-        owner.append(np.full(len(ends[-1]), index))
-        start.append((np.arange(len(cubics))[:, None] + t[None, :-1]).ravel())
-    first = np.concatenate(start)
-    return _Steps(np.concatenate(ends), np.concatenate(owner), first, first + 1 / _SAMPLES)
-
-
-def _adjacent(steps: _Steps, i: int, j: int, count: int, loop: bool) -> bool:
-    gap = abs(steps.start[j] - steps.start[i])
-    if loop:
-        gap = min(gap, count - gap)
-    return bool(gap < 1.5 / _SAMPLES)
-
-
-def _crossing(
-    curves: list[FloatArray], steps: _Steps, i: int, j: int, size: float
-) -> tuple[float, float] | None:
-    """Parameters of a true crossing near two steps, by Newton's method on the cubics."""
-    p, q = steps.ends[i], steps.ends[j]
-    d, e, gap = p[1] - p[0], q[1] - q[0], q[0] - p[0]
-    det = d[0] * e[1] - d[1] * e[0]
-    if abs(det) < 1e-9 * np.linalg.norm(d) * np.linalg.norm(e):
-        return None
-    s, t = (gap[0] * e[1] - gap[1] * e[0]) / det, (gap[0] * d[1] - gap[1] * d[0]) / det
-    if not (-0.2 <= s <= 1.2 and -0.2 <= t <= 1.2):
-        return None
-    a, b = curves[int(steps.curve[i])], curves[int(steps.curve[j])]
-    k, m = int(steps.start[i] + 1e-9), int(steps.start[j] + 1e-9)
-    u = float(np.clip(steps.start[i] - k + s / _SAMPLES, 0, 1))
-    v = float(np.clip(steps.start[j] - m + t / _SAMPLES, 0, 1))
-    for _ in range(8):
-        x, dx = _local(a[k], u)
-        y, dy = _local(b[m], v)
-        matrix = np.column_stack([dx, -dy])
-        if abs(np.linalg.det(matrix)) < 1e-12 * max(float(np.linalg.norm(dx) * np.linalg.norm(dy)), 1e-300):
-            return None
-        step = np.linalg.solve(matrix, y - x)
-        u, v = float(np.clip(u + step[0], 0, 1)), float(np.clip(v + step[1], 0, 1))
-    if np.linalg.norm(_local(a[k], u)[0] - _local(b[m], v)[0]) > 1e-9 * size:
-        return None
-    return k + u, m + v
 
 
 def _foot(cubics: FloatArray, at: float, point: FloatArray) -> float:
@@ -168,7 +157,7 @@ def _straight_on(other: FloatArray, foot: float, own: FloatArray, at: float, rea
         m = min(int(t), len(other) - 1)
         on, d = _local(other[m], t - m)
         matrix = np.column_stack([slope / length, -d])
-        if abs(np.linalg.det(matrix)) < 0.2 * np.linalg.norm(d):
+        if abs(np.linalg.det(matrix)) <= 0.2 * np.linalg.norm(d):
             return foot
         step = np.linalg.solve(matrix, on - end - s * slope / length)
         s, t = s + float(step[0]), float(np.clip(t + step[1], 0, len(other)))
@@ -192,6 +181,7 @@ def _local(cubic: FloatArray, t: float) -> tuple[FloatArray, FloatArray]:
 
 
 def _same(one: Contact, other: Contact) -> bool:
-    return {curve for curve, _ in one.on} == {curve for curve, _ in other.on} and all(
-        min(abs(at - there) for where, there in other.on if where == curve) < 1e-6 for curve, at in one.on
+    """Whether two contacts of the same curves are at the same parameters, on one curve in any order."""
+    return all(
+        min(abs(at - there) for where, there in other.on if where == curve) < _SAME for curve, at in one.on
     )

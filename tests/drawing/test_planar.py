@@ -1,0 +1,313 @@
+"""Curves cut into a planar graph: against exact arithmetic, Euler's formula, and slow plain code."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from unittest import mock
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from shapely import LineString, Point, get_parts, polygonize
+
+from wrapit.config import TracingConfig
+from wrapit.drawing import coincident, meetings
+from wrapit.drawing.coincident import without_coincident
+from wrapit.drawing.cutting import stretches
+from wrapit.drawing.places import Places
+from wrapit.drawing.planar import Curve, Planar, planar
+from wrapit.drawing.stage import trace
+from wrapit.drawing.tidying import rejoined
+from wrapit.errors import DrawingError
+from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.bezier import evaluate, split
+
+CORNER_RAD = 0.6
+FEW = settings(max_examples=30, deadline=None)
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+def line(start: object, end: object) -> FloatArray:
+    a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
+
+
+def through(points: FloatArray) -> Curve:
+    """The polyline through points; closed where it ends at its start."""
+    cubics = np.array([line(a, b) for a, b in itertools.pairwise(points)])
+    return Curve(cubics, closed=bool(np.array_equal(points[0], points[-1])))
+
+
+def wavy(rng: np.random.Generator, closed: bool) -> Curve:
+    """A smooth curve across a field of 100 by 100."""
+    knots, slopes = rng.uniform(0, 100, (4, 2)), rng.normal(0, 20, (4, 2))
+    ends = [*range(4), 0] if closed else range(4)
+    cubics = [
+        np.stack([knots[i], knots[i] + slopes[i], knots[j] - slopes[j], knots[j]])
+        for i, j in itertools.pairwise(ends)
+    ]
+    return Curve(np.array(cubics), closed)
+
+
+def drawing(rng: np.random.Generator) -> list[Curve]:
+    """Lines, polylines, smooth curves and loops, in general position."""
+    kinds = [
+        lambda: through(rng.uniform(0, 100, (2, 2))),
+        lambda: through(rng.uniform(0, 100, (5, 2))),
+        lambda: wavy(rng, closed=False),
+        lambda: wavy(rng, closed=True),
+    ]
+    return [kinds[rng.integers(len(kinds))]() for _ in range(rng.integers(1, 6))]
+
+
+def components(graph: Planar) -> int:
+    group = {node: {node} for piece in graph.pieces for node in (piece.start, piece.end)}
+    for piece in graph.pieces:
+        if group[piece.start] is not group[piece.end]:
+            group[piece.start] |= group[piece.end]
+            for node in group[piece.end]:
+                group[node] = group[piece.start]
+    return len({id(members) for members in group.values()})
+
+
+def nodes(graph: Planar) -> list[int]:
+    return sorted({node for piece in graph.pieces for node in (piece.start, piece.end)})
+
+
+def shape(graph: Planar) -> tuple[int, int, int, list[int]]:
+    """Numbers of nodes, pieces and components, and how many ends meet at each node."""
+    ends = [node for piece in graph.pieces for node in (piece.start, piece.end)]
+    return (
+        len(set(ends)), len(graph.pieces), components(graph), sorted(ends.count(node) for node in set(ends))
+    )  # fmt: skip
+
+
+def exact_crossing(one: FloatArray, other: FloatArray) -> tuple[Fraction, Fraction] | None:
+    """Where two segments with whole coordinates cross, in rational numbers."""
+    (ax, ay), (bx, by) = one.tolist()
+    (cx, cy), (dx, dy) = other.tolist()
+    det = (bx - ax) * (dy - cy) - (by - ay) * (dx - cx)
+    if det == 0:
+        return None
+    s = Fraction((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx), det)
+    t = Fraction((cx - ax) * (by - ay) - (cy - ay) * (bx - ax), det)
+    return (ax + s * (bx - ax), ay + s * (by - ay)) if 0 < s < 1 and 0 < t < 1 else None
+
+
+@FEW
+@given(SEEDS, st.integers(2, 14))
+def test_random_lines_cross_where_rational_arithmetic_says(seed, count):
+    ends = np.random.default_rng(seed).integers(0, 10**5, (count, 2, 2))
+    exact = [p for a, b in itertools.combinations(ends, 2) if (p := exact_crossing(a, b)) is not None]
+    places = np.array([*ends.reshape(-1, 2).tolist(), *([float(x), float(y)] for x, y in exact)])
+    reach = 1e-2
+    # General position: nothing else within reach of an end or of a crossing.
+    gaps = np.linalg.norm(places[:, None] - places, axis=2)
+    assume(gaps[~np.eye(len(places), dtype=bool)].min() > 1)
+    assume(all(LineString(a).distance(Point(p)) > 1 for a, p in _others(ends)))
+    graph = planar([through(points.astype(float)) for points in ends], reach, CORNER_RAD)
+    assert len(graph.places) == 2 * count + len(exact)
+    assert len(graph.pieces) == count + 2 * len(exact)
+    found = np.array([graph.places[node] for node in nodes(graph)])
+    away = np.linalg.norm(found[:, None] - places, axis=2).min(axis=0)
+    assert away.max() < 1e-8
+
+
+def _others(ends: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
+    for k, points in enumerate(ends):
+        for other in np.delete(ends, k, axis=0).reshape(-1, 2):
+            yield points, other
+
+
+@FEW
+@given(SEEDS)
+def test_faces_follow_eulers_formula_and_pieces_end_on_their_nodes(seed):
+    graph = planar(drawing(np.random.default_rng(seed)), 1e-6, CORNER_RAD)
+    for piece in graph.pieces:
+        assert np.array_equal(piece.curve.start, graph.places[piece.start])
+        assert np.array_equal(piece.curve.end, graph.places[piece.end])
+    # Sampled pieces lie beside the true ones by less than 1e-6; where two run closer they may cross.
+    lines = [LineString(piece.curve.sampled(0.02)) for piece in graph.pieces]
+    assume(all(_apart(a, b) for a, b in itertools.combinations(lines, 2)))
+    faces = len(get_parts(polygonize(lines))) + 1
+    assert len(nodes(graph)) - len(graph.pieces) + faces == 1 + components(graph)
+
+
+def _apart(one: LineString, other: LineString) -> bool:
+    """Whether two lines meet at ends of both only."""
+    met = one.intersection(other)
+    ends = {one.coords[0], one.coords[-1]} & {other.coords[0], other.coords[-1]}
+    return met.is_empty or all(
+        part.geom_type == "Point" and part.coords[0] in ends for part in get_parts(met)
+    )
+
+
+@FEW
+@given(SEEDS)
+def test_the_graph_is_the_same_however_the_curves_are_ordered_and_placed(seed):
+    rng = np.random.default_rng(seed)
+    curves = drawing(rng)
+    graph = planar(curves, 1e-4, CORNER_RAD)
+    order = rng.permutation(len(curves))
+    angle, scale, offset = rng.uniform(0, 2 * math.pi), 10 ** rng.uniform(-2, 2), rng.uniform(-500, 500, 2)
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    there = [Curve(scale * curves[k].cubics @ turn.T + offset, curves[k].closed) for k in order]
+    again = planar(there, 1e-4 * scale, CORNER_RAD)
+    assert shape(again) == shape(graph)
+    first = np.array([graph.places[node] for node in nodes(graph)])
+    second = (np.array([again.places[node] for node in nodes(again)]) - offset) @ turn / scale
+    assert np.linalg.norm(first[:, None] - second, axis=2).min(axis=1).max() < 1e-6
+
+
+@FEW
+@given(SEEDS, st.integers(3, 12))
+def test_lines_through_one_point_share_one_node(seed, count):
+    rng = np.random.default_rng(seed)
+    angles = (np.arange(count) + rng.uniform(-0.2, 0.2, count)) * math.pi / count
+    middle = rng.uniform(-1000, 1000, 2)
+    along = 40 * np.column_stack([np.cos(angles), np.sin(angles)])
+    graph = planar([through([middle - d, middle + d]) for d in along], 0.5, CORNER_RAD)
+    assert shape(graph) == (2 * count + 1, 2 * count, 1, [*[1] * 2 * count, 2 * count])
+
+
+class PlainPlaces:
+    """What `Places` says, said plainly: all points compared, all numbers rewritten."""
+
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance, self.points, self.owner, self.place, self.settled = tolerance, [], [], {}, set()
+
+    def find(self, point: FloatArray) -> int:
+        if self.points:
+            far = np.linalg.norm(np.array(self.points) - point, axis=1)
+            if far.min() <= self.tolerance:
+                return self.owner[int(np.argmin(far))]
+        self.points.append(point)
+        self.owner.append(len(self.owner))
+        self.place[self.owner[-1]] = point
+        return self.owner[-1]
+
+    def join(self, points: list[FloatArray], place: FloatArray) -> None:
+        found = sorted({self.find(point) for point in points})
+        self.owner = [found[0] if owner in found else owner for owner in self.owner]
+        if not self.settled & set(found):
+            self.place[found[0]] = place
+        for other in found[1:]:
+            self.place.pop(other)
+        self.settled.add(found[0])
+
+
+@FEW
+@given(SEEDS, st.sampled_from([1e-9, 0.01, 0.3, 1.0, 50.0]), st.sampled_from([0.0, -1e6, 1e12]))
+def test_places_by_grid_are_those_of_comparing_all(seed, tolerance, offset):
+    rng = np.random.default_rng(seed)
+    # Whole multiples of the tolerance lie exactly at the edge of cells and of reach.
+    points = offset + rng.choice([tolerance * rng.integers(-4, 5, (60, 2)), rng.normal(0, 5, (60, 2))])
+    quick, plain = Places(tolerance), PlainPlaces(tolerance)
+    for k, point in enumerate(points):
+        some = [point, *points[rng.integers(len(points), size=rng.integers(0, 3))]]
+        if k % 3:
+            assert quick.find(point) == plain.find(point)
+        else:
+            quick.join(some, point)
+            plain.join(some, point)
+    assert [quick.find(point) for point in points] == [plain.find(point) for point in points]
+    assert list(quick.all()) == list(plain.place)
+    assert all(np.array_equal(quick.place(number), place) for number, place in plain.place.items())
+
+
+@FEW
+@given(SEEDS)
+def test_stretches_cut_at_once_are_those_cut_one_by_one(seed):
+    rng = np.random.default_rng(seed)
+    cubics = wavy(rng, closed=True).cubics
+    count = len(cubics)
+    starts = rng.choice([rng.uniform(0, count, 8), rng.integers(0, count, 8).astype(float)])
+    ends = starts + rng.choice([0, 1e-8, 0.3, 1, 2.5, count], 8)
+    for start, end, found in zip(starts, ends, stretches(cubics, starts, ends), strict=True):
+        if end - start <= 1e-7:
+            assert found is None
+            continue
+        assert found is not None
+        assert np.array_equal(found[1:, 0], found[:-1, 3])
+        for at, point in ((start, found[0, 0]), (end, found[-1, 3])):
+            k = math.floor(at)
+            assert evaluate(cubics[k % count][None], np.array([at - k]))[0, 0] == pytest.approx(point)
+        if math.floor(start) + 1 >= end:
+            low, high = start - math.floor(start), end - math.floor(start)
+            left = split(cubics[math.floor(start) % count][None], high)[0] if high < 1 else None
+            whole = cubics[math.floor(start) % count][None] if left is None else left
+            assert np.array_equal(found, split(whole, low / high)[1] if low > 0 else whole)
+
+
+@FEW
+@given(SEEDS, st.booleans(), st.integers(2, 16))
+def test_a_stroke_drawn_in_parts_becomes_one_however_they_lie(seed, closed, count):
+    rng = np.random.default_rng(seed)
+    t = np.linspace(0, 2 * math.pi if closed else 5, count + 1)
+    points = 50 * np.column_stack([np.cos(t), np.sin(t)])
+    if closed:
+        assume(count > 12)
+        points[-1] = points[0]
+    parts = [line(a, b)[None] for a, b in itertools.pairwise(points)]
+    drawn = [
+        Curve(part if rng.integers(2) else part[:, ::-1][::-1], closed=False)
+        for part in (parts[k] for k in rng.permutation(count))
+    ]
+    turn = 1.1 * 2 * math.pi / count
+    (piece,) = planar(drawn, 0.01, turn).pieces
+    assert len(piece.curve) == count
+    assert piece.curve.length == pytest.approx(sum(BezierChain(part).length for part in parts))
+    assert (piece.start == piece.end) is closed
+    assert rejoined([piece], turn) == [piece]
+
+
+@FEW
+@given(SEEDS)
+def test_coincident_strokes_are_those_of_comparing_all_pairs(seed):
+    rng = np.random.default_rng(seed)
+    width = float(rng.choice([0.1, 1.0, 5.0]))
+    curves = drawing(rng)
+    for curve in [curves[k] for k in rng.integers(len(curves), size=3)]:
+        # Copies beside the original, within reach or not, run the other way, or only a part.
+        shifted = curve.cubics + rng.choice([0, 0.1, 0.28, 0.4]) * width
+        curves.append(
+            Curve(shifted, curve.closed) if rng.integers(2) else Curve(shifted[:2, ::-1][::-1], False)
+        )
+    found = without_coincident(curves, width)
+    with mock.patch.object(coincident, "parallels", _all_pairs):
+        plain = without_coincident(curves, width)
+    assert [kept.closed for kept in found[0]] == [kept.closed for kept in plain[0]]
+    assert all(np.array_equal(a.cubics, b.cubics) for a, b in zip(found[0], plain[0], strict=True))
+    assert [length for _, length in found[1]] == [length for _, length in plain[1]]
+
+
+def _all_pairs(courses: dict[int, object], *_: float) -> dict[int, set[int]]:
+    return {number: {other for other in courses if other < number} for number in courses}
+
+
+def test_an_end_touches_a_curve_that_stands_still_there():
+    still = np.array([[[10, 90], [10, 90], [10, 10], [90, 10]]], dtype=float)
+    graph = planar([Curve(still, closed=False), through([(10, 90.5), (90, 95)])], 1.0, CORNER_RAD)
+    assert shape(graph) == (3, 2, 1, [1, 1, 2])
+
+
+def test_too_many_crossings_are_refused_with_place_and_remedy(monkeypatch, tmp_path):
+    monkeypatch.setattr(meetings, "MOST_CONTACTS", 80)
+    rows = "".join(f"M0 {k}H20M{k} 0V20" for k in range(1, 11))
+    path = tmp_path / "hatched.svg"
+    lines = '<path stroke="black" stroke-width=".1" fill="none" d="{}"/>'
+    picture = f'<svg xmlns="http://www.w3.org/2000/svg">{lines}</svg>'
+    path.write_text(picture.format(rows))
+    with pytest.raises(
+        DrawingError, match=r"in more than 80 places, many of them near \(\d+\.\d, \d+\.\d\) px"
+    ) as refused:
+        trace(path, TracingConfig(), 40.0)
+    assert refused.value.remedy
+    assert len(str(refused.value).splitlines()) == 1
+    path.write_text(picture.format("".join(f"M0 {k}H20M{k} 0V20" for k in range(1, 9))))
+    drawing, _ = trace(path, TracingConfig(), 40.0)
+    assert len(drawing.junctions) == 64 + 32
