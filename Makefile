@@ -1,6 +1,9 @@
 # wrapit: from a line drawing to wire-wrapped jewellery. `make` lists what can be made.
 SHELL := /bin/bash
-PYTHON ?= python3
+# The Pythons that the kernel's wheels exist for, best first; pyproject.toml promises the same.
+PYTHONS := 3.13 3.12 3.11
+# The one to use instead of the first of these that works: make PYTHON=/opt/python3.12/bin/python3 demo
+PYTHON ?=
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
@@ -11,17 +14,20 @@ JOBS ?= auto
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo all check format lint types imports test golden bench docs clean
+.PHONY: help setup demo all check format lint types imports test golden bench docs clean FORCE
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z%\/-]+:.*## / {printf "  %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: $(READY) ## create .venv with wrapit and its tools
 
-$(READY): pyproject.toml requirements.lock
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
-	  { echo "wrapit needs Python 3.11 or newer; run: make PYTHON=python3.11 $(MAKECMDGOALS)" >&2; exit 1; }
+# Looked at whenever it is needed, for the system's Python may have changed under it; remade only then.
+$(VENV)/.python: FORCE
+	@GOALS='$(MAKECMDGOALS)' .ci/make-venv $(VENV) '$(PYTHONS)' '$(PYTHON)'
+
+FORCE:
+
+$(READY): $(VENV)/.python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c requirements.lock -e '.[dev]'
 	@touch $@
 

@@ -8,6 +8,9 @@ import sys
 import tomllib
 from pathlib import Path
 
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
 ROOT = Path(__file__).parent.parent
 
 
@@ -25,11 +28,9 @@ def test_exactly_one_distribution_provides_the_kernel_bindings() -> None:
 def test_the_lock_holds_every_dependency() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     wanted = [*project["dependencies"], *project["optional-dependencies"]["dev"]]
-    names = {name.split(">")[0].split("=")[0].split("<")[0].lower().replace("_", "-") for name in wanted}
-    locked = {
-        line.split("==")[0].lower().replace("_", "-")
-        for line in (ROOT / "requirements.lock").read_text().split()
-    }
+    names = {canonicalize_name(Requirement(line).name) for line in wanted}
+    lock = (ROOT / "requirements.lock").read_text().splitlines()
+    locked = {canonicalize_name(Requirement(line).name) for line in lock}
     assert names - locked == set()
 
 
