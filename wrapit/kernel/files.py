@@ -14,7 +14,7 @@ import numpy as np
 from wrapit.errors import ExportError
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.meshes import Mesh, mesh_of
-from wrapit.kernel.steptext import canonical_step
+from wrapit.kernel.steptext import canonical_step, carried
 
 STL_ANGLE_RAD = 0.2
 COARSE_TOLERANCE_MM, COARSE_ANGLE_RAD = 0.02, 0.3
@@ -41,14 +41,14 @@ def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
     with guarded("writing STEP", path.name):
         # Names in a tree are unique: a part may not be called like the whole.
         taken = {part.name for part in parts}
-        tree = cadquery.Assembly(name=f"{name} (all)" if name in taken else name)
+        tree = cadquery.Assembly(name=carried(f"{name} (all)" if name in taken else name))
         for part in parts:
             colour = cadquery.Color(*_channels(part.colour))
             if part.solid is not None:
-                tree.add(cadquery.Shape.cast(part.solid), name=part.name, color=colour)
+                tree.add(cadquery.Shape.cast(part.solid), name=carried(part.name), color=colour)
             for index, edge in enumerate(part.edges, start=1):
                 suffix = "centreline" if len(part.edges) == 1 else f"curve-{index}"
-                tree.add(cadquery.Shape.cast(edge), name=f"{part.name} {suffix}", color=colour)
+                tree.add(cadquery.Shape.cast(edge), name=carried(f"{part.name} {suffix}"), color=colour)
         if not _export(tree, path):
             raise ExportError("the STEP file can't be written", str(path))
     path.write_text(canonical_step(path.read_text(encoding="latin-1"), path.name), encoding="latin-1")

@@ -14,11 +14,35 @@ _ENTITY = re.compile(r"#(\d+)\s*=\s*(.*?);\s*(?=#\d+\s*=|ENDSEC)", re.DOTALL)
 _REFERENCE = re.compile(r"#(\d+)")
 _STRING = re.compile(r"('(?:[^']|'')*')")
 _USAGE = re.compile(r"^(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
+_OUTSIDE_ASCII = re.compile(r"[^\x00-\x7f]+")
+_CARRIED = re.compile(r"~X([24])~([0-9A-F]+)~X0~")
 _FILE_NAME = re.compile(r"FILE_NAME\(.*?\);", re.DOTALL)
 
 
+def carried(name: str) -> str:
+    r"""A name in ASCII that the kernel's writer leaves alone; `canonical_step` makes STEP's own code of it.
+
+    STEP writes letters outside of ASCII as `\X2\00FC\X0\` (ISO 10303-21, 6.4.3.3); the kernel would write
+    the bytes of an encoding that readers don't know, and double a backslash.
+
+    >>> carried("Blüte")
+    'Bl~X2~00FC~X0~te'
+    """
+    return _OUTSIDE_ASCII.sub(_carried_run, name)
+
+
+def _carried_run(match: re.Match[str]) -> str:
+    wide = max(match[0]) > "\uffff"
+    digits = "".join(f"{ord(letter):0{8 if wide else 4}X}" for letter in match[0])
+    return f"~X{4 if wide else 2}~{digits}~X0~"
+
+
+def _with_codes(text: str) -> str:
+    return _CARRIED.sub(r"\\X\1\\\2\\X0\\", text)
+
+
 def canonical_step(text: str, file_name: str) -> str:
-    """The same model, written so that equal models have equal bytes."""
+    """The same model, written so that equal models have equal bytes; carried names as STEP has them."""
     header, data = text.split("DATA;", 1)
     header = _FILE_NAME.sub(lambda _: _file_name(file_name), header)
     entities = {int(m[1]): _USAGE.sub(r"\1''", " ".join(m[2].split())) for m in _ENTITY.finditer(data)}
@@ -36,11 +60,11 @@ def canonical_step(text: str, file_name: str) -> str:
             usages += 1
             body = body.replace("(''", f"('{usages}'", 1)
         lines.append(f"#{numbers[old]}={body};")
-    return header + "DATA;\n" + "\n".join(lines) + "\nENDSEC;\nEND-ISO-10303-21;\n"
+    return header + "DATA;\n" + _with_codes("\n".join(lines)) + "\nENDSEC;\nEND-ISO-10303-21;\n"
 
 
 def _file_name(file_name: str) -> str:
-    name = file_name.replace("'", "''").encode("ascii", "replace").decode()
+    name = _with_codes(carried(file_name.replace("'", "''")))
     return f"FILE_NAME('{name}','{FIXED_TIME}',(''),(''),'wrapit','wrapit','');"
 
 

@@ -103,7 +103,7 @@ def _start(
                 "note",
                 "renamed",
                 "config",
-                f"the config's file name can't be a folder's on every system, so the piece is called {named!r}",
+                f"the config's file name can't be a folder's on every system, so it is called {named!r}",
                 "give it a `name:`",
             )
         )
