@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Final
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*((?:(?<=\s)1/)?[^\d\s].*?)?\s*$")
+_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*((?:(?<=\s)1/)?[^\d\s.,+_-].*?)?\s*$")
 _GAUGE: Final = re.compile(r"^\s*(?:(awg|swg)\s*[-#]?\s*(\d{1,3})|(\d{1,3})\s*(awg|swg))\s*$", re.IGNORECASE)
 
 MM_PER: Final = {

@@ -39,6 +39,8 @@ def load(tmp_path: Path, text: str) -> Config:
         ("jig: {min_wall_area: 1e999}", ":2:7 jig.min_wall_area: inf is not a finite number; choose"),
         ("jig: {min_wall_area: true}", ":2:7 jig.min_wall_area: true or false is not a number; choose"),
         ("jig: {min_wall_area: &a true}", ":2:7 jig.min_wall_area: true or false is not a number; choose"),
+        ("plate: {kerf: 2001-13-45}", ":2:9 plate.kerf: '2001-13-45' is not a value with a unit; write"),
+        ("plate: {kerf: '0,2 mm'}", ":2:9 plate.kerf: '0,2 mm' is not a value with a unit; write for"),
         ("jig: {time_limit: 2 days}", ":2:7 jig.time_limit: unknown unit 'days'; use one of s, sec"),
         ("jig: {time_limit: 25 h}", ":2:7 jig.time_limit: 25 h is out of range; choose between 1 s and 24 h"),
         ("decomposition: {seed: 1.5}", ":2:17 decomposition.seed: 1.5 is not a whole number; choose"),
