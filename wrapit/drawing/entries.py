@@ -40,6 +40,8 @@ def load_json(path: Path) -> object:
         raise DrawingError(
             "lists are nested without end", str(path), "give a drawing.json as a build writes it"
         ) from None
+    except UnicodeDecodeError:
+        raise DrawingError("the file is no text in UTF-8 or UTF-16", str(path), "save it as UTF-8") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise DrawingError(
@@ -86,6 +88,20 @@ def words(value: object) -> str:
     if any("\ud800" <= letter <= "\udfff" for letter in value):
         raise ValueError(f"{shown(value)} holds half a character (a lone surrogate)")
     return value
+
+
+def block(value: object) -> dict[str, Any]:
+    """A block of named values. Raises ValueError for anything else."""
+    if not isinstance(value, dict):
+        raise ValueError(f"{shown(value)} is no block of names and values")
+    return value
+
+
+def pair(value: object) -> tuple[float, float]:
+    """A place [x, y]. Raises ValueError for anything else."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise ValueError(f"{shown(value)} is no place [x, y]")
+    return number(value[0]), number(value[1])
 
 
 def shown(value: Any) -> str:

@@ -9,7 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from wrapit.drawing.entries import LARGEST_MM, is_number, load_json, number, positive, shown, words
+from wrapit.drawing.entries import (
+    LARGEST_MM,
+    block,
+    is_number,
+    load_json,
+    number,
+    pair,
+    positive,
+    shown,
+    words,
+)
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
 from wrapit.errors import DrawingError
 from wrapit.geometry import BezierChain, FloatArray, unit
@@ -127,29 +137,18 @@ def _scale(segments: list[Segment], size_mm: float | None, path: Path) -> float:
 def _scaled(
     data: dict[str, Any], junctions: list[FloatArray], segments: list[Segment], scale: float, path: Path
 ) -> Drawing:
-    frame, width = data.get("pixel_frame"), data.get("stroke_width_mm")
-    removed = data.get("removed", [])
     try:
+        frame, width = data.get("pixel_frame"), data.get("stroke_width_mm")
         return Drawing(
             tuple(Junction(index, point * scale) for index, point in enumerate(junctions)),
             tuple(
                 Segment(s.id, s.start, s.end, BezierChain(s.curve.points * scale), s.kind) for s in segments
             ),
             None if width is None else positive(width) * scale,
-            None
-            if frame is None
-            else PixelFrame(positive(frame["mm_per_px"]) * scale, _pair(frame["origin_mm"], scale)),
-            tuple(
-                Removal(
-                    words(item["what"]),
-                    _pair(item["at"], scale),
-                    number(item["length_mm"]) * scale,
-                    words(item.get("reason", "")),
-                )
-                for item in removed
-            ),
+            None if frame is None else _frame(block(frame), scale),
+            tuple(_removal(block(item), scale) for item in _removed(data)),
         )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, ValueError) as error:
         reason = f"{error} is missing" if isinstance(error, KeyError) else str(error)
         raise DrawingError(
             f"pixel_frame, stroke_width_mm or removed is not as expected ({reason})",
@@ -158,9 +157,26 @@ def _scaled(
         ) from None
 
 
-def _pair(value: Any, scale: float) -> tuple[float, float]:
-    x, y = value
-    return number(x) * scale, number(y) * scale
+def _frame(entry: dict[str, Any], scale: float) -> PixelFrame:
+    x, y = pair(entry["origin_mm"])
+    return PixelFrame(positive(entry["mm_per_px"]) * scale, (x * scale, y * scale))
+
+
+def _removed(data: dict[str, Any]) -> list[Any]:
+    removed = data.get("removed", [])
+    if not isinstance(removed, list):
+        raise ValueError(f"{shown(removed)} is no list of what was removed")
+    return removed
+
+
+def _removal(entry: dict[str, Any], scale: float) -> Removal:
+    x, y = pair(entry["at"])
+    return Removal(
+        words(entry["what"]),
+        (x * scale, y * scale),
+        number(entry["length_mm"]) * scale,
+        words(entry.get("reason", "")),
+    )
 
 
 def _load(path: Path) -> dict[str, Any]:

@@ -24,10 +24,12 @@ _REACH = 0.95
 _REACH_SHARE = 2e-3
 # However broad the strokes are, no end farther away than this share of the size is meant.
 _MOST = 0.04
-_SMALLEST_SIZE_MM = 1e-3
+_SMALLEST_SIZE_MM = 0.1
 # In sizes of the drawing: farther away, its coordinates lose what matters; broader, no line is seen.
 _FARTHEST = 1e7
 _BROADEST = 100.0
+# Finer strokes (in sizes of the drawing) are hairlines: they have no width that a file could hold.
+_FINEST = 1e-5
 
 
 def trace_svg(
@@ -58,7 +60,7 @@ def trace_svg(
         connected.places,
         connected.pieces,
         where,
-        width=strokes.width_px,
+        width=strokes.width_px if (strokes.width_px or 0) >= _FINEST * size else None,
         changes=[*changes, *connected.changes],
         pixel_frame=False,
     )

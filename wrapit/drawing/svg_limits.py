@@ -16,10 +16,14 @@ if TYPE_CHECKING:
 MOST_SHAPES = 20_000
 MOST_PARTS = 20_000
 _DEEPEST = 150
-# Characters of attributes that are handed down from groups to what is in them, summed over all elements.
-_MOST_CHARACTERS = 50_000_000
-# Copies of copies make numbers without end; from here on they are only "many".
-_UNCOUNTED = 10_000_000
+# Characters of attributes that are handed down from groups to what is in them, summed over all elements;
+# those that every element reads anew weigh more, and styles, of which few rules apply, less.
+_MOST_CHARACTERS = 20_000_000
+_READ_ANEW, _WEIGHT = ("transform", "d", "points", "style"), 10
+_STYLE_SHARE = 5
+# Copies of copies make numbers without end; sums stop here, and are only "many" from there.
+_ENOUGH = 10**12
+_MANY = 10**7
 
 _COMMAND = re.compile(r"([A-DF-Za-df-z])([^A-DF-Za-df-z]*)")
 _NUMBER = re.compile(r"[0-9]+\.?[0-9]*|\.[0-9]+")
@@ -79,7 +83,7 @@ def _load(root: Element, path: Path) -> _Load:
         waiting += element.children
         if "id" in element.attributes:
             named[element.attributes["id"]] = element
-    style = sum(len(text) for element in waiting if element.tag == "style" for text in element.text)
+    style = sum(_style_length(element) for element in waiting if element.tag == "style")
     known: dict[int, _Load] = {}
     begun: set[int] = set()
     stack = [root]
@@ -113,24 +117,34 @@ def _inside(element: Element, named: dict[str, Element]) -> list[Element]:
 def _sum(element: Element, inside: list[_Load], style: int) -> _Load:
     elements = 1 + sum(load.elements for load in inside)
     own = sum(len(name) + len(value) for name, value in element.attributes.items())
+    anew = _WEIGHT * sum(len(element.attributes.get(name, "")) for name in _READ_ANEW)
     # Each class of an element looks up its rules, and the element itself does.
-    styled = style * (1 + len(element.attributes.get("class", "").split()))
+    styled = style * (1 + len(element.attributes.get("class", "").split())) // _STYLE_SHARE
+    characters = own * elements + anew * (elements - 1) + styled
     return _Load(
-        min(elements, _UNCOUNTED),
-        min(_parts(element) + sum(load.parts for load in inside), _UNCOUNTED),
-        min(own * elements + styled + sum(load.characters for load in inside), _UNCOUNTED),
+        min(elements, _ENOUGH),
+        min(_parts(element) + sum(load.parts for load in inside), _ENOUGH),
+        min(characters + sum(load.characters for load in inside), _ENOUGH),
         1 + max((load.depth for load in inside), default=0),
     )
 
 
+def _style_length(element: Element) -> int:
+    """Characters of its rules; a font in it is long, and applies to nothing."""
+    rules = "".join(element.text).split("}")
+    return sum(len(rule) for rule in rules if "@font-face" not in rule)
+
+
 def _parts(element: Element) -> int:
-    """How many parts its path or points have, at least one for each command."""
+    """How many parts its path or points have; a path of mere moves counts too, as it takes time."""
     points = len(_NUMBER.findall(element.attributes.get("points", ""))) // 2
-    return points + sum(
-        max(1, len(_NUMBER.findall(numbers)) // _NUMBERS_EACH.get(command.lower(), 2))
-        for command, numbers in _COMMAND.findall(element.attributes.get("d", ""))
-    )
+    commands = _COMMAND.findall(element.attributes.get("d", ""))
+    parts = 0
+    for command, numbers in commands:
+        count = len(_NUMBER.findall(numbers)) // _NUMBERS_EACH.get(command.lower(), 2)
+        parts += max(0, count - 1) if command in "mM" else max(1, count)
+    return points + max(parts, len(commands) // 3)
 
 
 def _many(count: int) -> str:
-    return f"{count}" if count < _UNCOUNTED else "over ten million"
+    return f"{count}" if count < _MANY else "over ten million"

@@ -19,6 +19,7 @@ from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
 _MM_PER_PX = 25.4 / 96
+_LARGEST_PX = 1e12
 # What svgelements raises on numbers and names that it can't make sense of.
 _FAULTS = (
     ValueError,
@@ -122,7 +123,10 @@ def _not_understood(error: Exception, elements: Element, path: Path) -> DrawingE
                 f"{path}:{element.line}",
                 "correct it, or delete the path",
             )
-    reason = str(error) or "a number or a name is missing where one is needed"
+    # The error's own text speaks of Python's lists, not of the file.
+    reason = "a number is out of its range or no number at all"
+    if isinstance(error, LookupError | TypeError | AttributeError):
+        reason = "a number or a name is missing where one is needed, as in a transform"
     return DrawingError(f"the SVG file can't be understood ({reason})", str(path), "save it as plain SVG")
 
 
@@ -203,8 +207,12 @@ def _curves(shape: Any, path: Path) -> list[Curve]:
 
 def _add(cubics: list[FloatArray], new: list[FloatArray], path: Path) -> None:
     for cubic in new:
-        if not np.isfinite(cubic).all() or np.abs(cubic).max() > 1e12:
+        if not np.isfinite(cubic).all():
             raise DrawingError("a coordinate is not a finite number", str(path), "correct the path data")
+        if np.abs(cubic).max() > _LARGEST_PX:
+            raise DrawingError(
+                f"a coordinate is larger than {_LARGEST_PX:g} px", str(path), "correct the path data"
+            )
         if np.abs(np.diff(cubic, axis=0)).max() > 1e-9:
             cubics.append(cubic)
 

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
     from wrapit.drawing.svg_document import Element
 
 _LONGEST_BLANK = 200
-# In general, and where several numbers follow each other in one pattern.
+# In general, and where several numbers follow each other in one pattern (fewer if it is not in order).
 _MOST_DIGITS = 400
-_MOST_DIGITS_OF_PAIR = 30
+_MOST_DIGITS_OF_PAIR = 20
 _MOST_DIGITS_OF_COLOUR = 12
+_MOST_DIGITS_OF_OTHER_COLOUR = 4
 _LONGEST_VALUE = 2_000
 _LONGEST_RULE = 5_000
 # Sum of the squares of the selectors' lengths.
@@ -31,6 +32,8 @@ _NUMBERS = {
 }  # fmt: skip
 _COLOURS = {"fill", "stroke", "color", "stop-color"}
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+_POINTS = re.compile(r"[-+.,0-9eE\s]*")
+_PART_OF_COLOUR = re.compile(r"\s*[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)%?\s*")
 _BLANK = re.compile(rf"\s{{{_LONGEST_BLANK},}}")
 
 
@@ -41,6 +44,8 @@ def refuse_slow_texts(element: Element, path: Path) -> None:
         if name == "points":
             _refuse_digits(value, name, _MOST_DIGITS_OF_PAIR, where)
             _refuse_blanks(value, name, where)
+            if (end := _POINTS.match(value)) and end.end() < len(value):
+                raise DrawingError(f"{value[end.end()]!r} is no number in points", where, "correct it")
         elif name == "d":
             _refuse_digits(value, name, _MOST_DIGITS, where)
             _refuse_blanks(value, name, where)
@@ -79,10 +84,19 @@ def _refuse_rule(text: str, what: str, where: str) -> None:
     if len(text) > _LONGEST_RULE:
         raise DrawingError(f"{what} is longer than {_LONGEST_RULE} characters", where, "shorten it")
     if "rgb" in text or "hsl" in text:
-        _refuse_digits(text, what, _MOST_DIGITS_OF_COLOUR, where)
+        ordered = all(map(_in_order, re.split(r"rgba?\(|hsla?\(", text)[1:]))
+        most = _MOST_DIGITS_OF_COLOUR if ordered else _MOST_DIGITS_OF_OTHER_COLOUR
+        _refuse_digits(text, what, most, where)
     _refuse_blanks(text, what, where)
     if "transform" in text:
         _refuse_open_brackets(text, what, where)
+
+
+def _in_order(colour: str) -> bool:
+    """Whether what follows `rgb(` is three or four numbers and a bracket."""
+    inside, bracket, _ = colour.partition(")")
+    parts = inside.split(",")
+    return bool(bracket) and len(parts) in (3, 4) and all(map(_PART_OF_COLOUR.fullmatch, parts))
 
 
 def _refuse_digits(text: str, what: str, most: int, where: str) -> None:
