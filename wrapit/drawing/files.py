@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import itertools
 import json
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from wrapit.drawing.entries import (
+    LARGEST_MM,
+    block,
+    is_number,
+    load_json,
+    number,
+    pair,
+    positive,
+    shown,
+    words,
+)
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
 from wrapit.errors import DrawingError
 from wrapit.geometry import BezierChain, FloatArray, unit
@@ -20,6 +30,13 @@ _DECIMALS = 6
 # A joint that rounding moved off its tangent by no more than this (mm) is put back.
 _ROUNDING_MM = 3e-6
 _NEAR_MM = 1e-3
+# Larger and smaller drawings are mistakes of their unit.
+LARGEST_SIZE_MM = 10_000.0
+_SMALLEST_SIZE_MM = 1e-3
+_MOST_SEGMENTS = 20_000
+_MOST_BEZIERS = 200_000
+_SAMPLED_MM = 0.05
+_MOST_SAMPLES = 2_000_000
 
 
 def drawing_json(drawing: Drawing) -> str:
@@ -63,80 +80,111 @@ def read_drawing(path: Path, size_mm: float | None = None) -> Drawing:
     Raises DrawingError, naming the entry, for anything that is no such drawing.
     """
     data = _load(path)
-    junctions = [
-        _point(entry, f"{path}: junctions[{index}]")
-        for index, entry in enumerate(_list(data, "junctions", path))
+    places, entries = _list(data, "junctions", path), _list(data, "segments", path)
+    _refuse_many(data, entries, path)
+    junctions = [_point(entry, f"{path}: junctions[{index}]") for index, entry in enumerate(places)]
+    segments = [
+        _segment(entry, index, junctions, f"{path}: segments[{index}]") for index, entry in enumerate(entries)
     ]
-    segments = []
-    for index, entry in enumerate(_list(data, "segments", path)):
-        segments.append(_segment(entry, index, junctions, f"{path}: segments[{index}]"))
     if not segments:
         raise DrawingError("the drawing has no segments", str(path), "draw at least one line")
-    scale = 1.0
+    return _scaled(data, junctions, segments, _scale(segments, size_mm, path), path)
+
+
+def _refuse_many(data: dict[str, Any], entries: list[Any], path: Path) -> None:
+    """Counts before anything is made of the entries, which takes a thousand times as long."""
+    beziers = [entry.get("beziers") for entry in entries if isinstance(entry, dict)]
+    removed = data.get("removed")
+    for what, count, most in (
+        ("segments", len(entries), _MOST_SEGMENTS),
+        ("junctions", len(data["junctions"]), 2 * _MOST_SEGMENTS),
+        ("Béziers", sum(len(chain) for chain in beziers if isinstance(chain, list)), _MOST_BEZIERS),
+        ("removed entries", len(removed) if isinstance(removed, list) else 0, _MOST_BEZIERS),
+    ):
+        if count > most:
+            raise DrawingError(
+                f"the drawing has {count} {what}, more than the limit of {most}", str(path), "simplify it"
+            )
+
+
+def _scale(segments: list[Segment], size_mm: float | None, path: Path) -> float:
+    """What to multiply the drawing by; refuses where the result would be no size for jewellery."""
+    controls = np.concatenate([segment.curve.points.reshape(-1, 2) for segment in segments])
+    extent, scale = float(np.ptp(controls, axis=0).max()), 1.0
+    if extent < _SMALLEST_SIZE_MM:
+        raise DrawingError(f"the drawing is only {extent:.2g} mm large", str(path), "draw it larger")
     if size_mm is not None:
-        points = np.concatenate([segment.curve.sampled(0.05) for segment in segments])
-        scale = size_mm / max(float(np.ptp(points, axis=0).max()), 1e-9)
-    return _scaled(data, junctions, segments, scale, path)
+        # Long drawings are sampled more coarsely: a place every 0.05 mm would fill the memory.
+        length = sum(float(np.abs(np.diff(s.curve.points, axis=1)).sum()) for s in segments)
+        step = max(_SAMPLED_MM, length / _MOST_SAMPLES)
+        points = np.concatenate([segment.curve.sampled(step) for segment in segments])
+        scale = size_mm / max(float(np.ptp(points, axis=0).max()), _SMALLEST_SIZE_MM)
+    elif extent > LARGEST_SIZE_MM:
+        raise DrawingError(
+            f"the drawing is {extent:.3g} mm large, which is no size for jewellery",
+            str(path),
+            "add `size: 40 mm` to the config",
+        )
+    if float(np.abs(controls).max()) * scale > LARGEST_MM:
+        raise DrawingError(
+            f"the drawing lies too far from (0, 0) for its size of {extent:.2g} mm",
+            str(path),
+            "move it there",
+        )
+    return scale
 
 
 def _scaled(
     data: dict[str, Any], junctions: list[FloatArray], segments: list[Segment], scale: float, path: Path
 ) -> Drawing:
-    frame, width = data.get("pixel_frame"), data.get("stroke_width_mm")
-    removed = data.get("removed", [])
     try:
+        frame, width = data.get("pixel_frame"), data.get("stroke_width_mm")
         return Drawing(
             tuple(Junction(index, point * scale) for index, point in enumerate(junctions)),
             tuple(
                 Segment(s.id, s.start, s.end, BezierChain(s.curve.points * scale), s.kind) for s in segments
             ),
-            None if width is None else _positive(width) * scale,
-            None
-            if frame is None
-            else PixelFrame(
-                _positive(frame["mm_per_px"]) * scale,
-                (float(frame["origin_mm"][0]) * scale, float(frame["origin_mm"][1]) * scale),
-            ),
-            tuple(
-                Removal(
-                    str(item["what"]),
-                    (float(item["at"][0]) * scale, float(item["at"][1]) * scale),
-                    float(item["length_mm"]) * scale,
-                    str(item.get("reason", "")),
-                )
-                for item in removed
-            ),
+            None if width is None else positive(width) * scale,
+            None if frame is None else _frame(block(frame), scale),
+            tuple(_removal(block(item), scale) for item in _removed(data)),
         )
-    except (KeyError, TypeError, ValueError, IndexError) as error:
+    except (KeyError, ValueError) as error:
+        reason = f"{error} is missing" if isinstance(error, KeyError) else str(error)
         raise DrawingError(
-            f"pixel_frame, stroke_width_mm or removed is not as expected ({error})",
+            f"pixel_frame, stroke_width_mm or removed is not as expected ({reason})",
             str(path),
             "correct it, or leave it out",
         ) from None
 
 
-def _load(path: Path) -> dict[str, Any]:
-    def refuse(word: str) -> float:
-        raise ValueError(f"{word} is no coordinate")
+def _frame(entry: dict[str, Any], scale: float) -> PixelFrame:
+    x, y = pair(entry["origin_mm"])
+    return PixelFrame(positive(entry["mm_per_px"]) * scale, (x * scale, y * scale))
 
-    try:
-        data = json.loads(path.read_text(encoding="utf-8-sig"), parse_constant=refuse)
-    except FileNotFoundError:
-        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config") from None
-    except json.JSONDecodeError as error:
-        raise DrawingError(
-            f"not valid JSON: {error.msg.lower()}",
-            f"{path}:{error.lineno}:{error.colno}",
-            "correct it there; the file may be cut off",
-        ) from None
-    except (OSError, UnicodeDecodeError, ValueError, RecursionError) as error:
-        raise DrawingError(
-            f"the drawing can't be read ({error})", str(path), "give a JSON text file"
-        ) from None
+
+def _removed(data: dict[str, Any]) -> list[Any]:
+    removed = data.get("removed", [])
+    if not isinstance(removed, list):
+        raise ValueError(f"{shown(removed)} is no list of what was removed")
+    return removed
+
+
+def _removal(entry: dict[str, Any], scale: float) -> Removal:
+    x, y = pair(entry["at"])
+    return Removal(
+        words(entry["what"]),
+        (x * scale, y * scale),
+        number(entry["length_mm"]) * scale,
+        words(entry.get("reason", "")),
+    )
+
+
+def _load(path: Path) -> dict[str, Any]:
+    data = load_json(path)
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise DrawingError("the file is no wrapit drawing", str(path), f'it starts with "format": "{FORMAT}"')
     if data.get("unit", "mm") != "mm":
-        raise DrawingError(f"unknown unit {data['unit']!r}", f"{path}: unit", 'drawings are in "mm"')
+        raise DrawingError(f"unknown unit {shown(data['unit'])}", f"{path}: unit", 'drawings are in "mm"')
     return data
 
 
@@ -148,19 +196,11 @@ def _list(data: dict[str, Any], key: str, path: Path) -> list[Any]:
 
 
 def _point(entry: object, where: str) -> FloatArray:
-    if (
-        not isinstance(entry, list)
-        or len(entry) != 2
-        or not all(isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x) for x in entry)
-    ):
-        raise DrawingError("expected a place [x, y] in mm", where, "write two finite numbers")
+    if not isinstance(entry, list) or len(entry) != 2 or not all(map(is_number, entry)):
+        raise DrawingError(
+            "expected a place [x, y] in mm", where, f"write two numbers of at most {LARGEST_MM:g}"
+        )
     return np.array(entry, dtype=np.float64)
-
-
-def _positive(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < math.inf:
-        raise ValueError(f"{value!r} is not a positive number")
-    return float(value)
 
 
 def _segment(entry: object, index: int, junctions: list[FloatArray], where: str) -> Segment:
@@ -176,7 +216,7 @@ def _segment(entry: object, index: int, junctions: list[FloatArray], where: str)
         ends.append(value)
     kind = entry.get("kind", "stroke")
     if kind not in ("stroke", "bridge"):
-        raise DrawingError(f"unknown kind {kind!r}", where, "write 'stroke' or 'bridge'")
+        raise DrawingError(f"unknown kind {shown(kind)}", where, "write 'stroke' or 'bridge'")
     beziers = entry.get("beziers")
     if (
         not isinstance(beziers, list)
@@ -238,8 +278,8 @@ def _text(data: dict[str, Any]) -> str:
     lines = []
     for key, value in data.items():
         if isinstance(value, list) and value:
-            inner = ",\n  ".join(json.dumps(item, ensure_ascii=False) for item in value)
+            inner = ",\n  ".join(json.dumps(item, ensure_ascii=False, allow_nan=False) for item in value)
             lines.append(f' "{key}": [\n  {inner}\n ]')
         else:
-            lines.append(f' "{key}": {json.dumps(value, ensure_ascii=False)}')
+            lines.append(f' "{key}": {json.dumps(value, ensure_ascii=False, allow_nan=False)}')
     return "{\n" + ",\n".join(lines) + "\n}\n"

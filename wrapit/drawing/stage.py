@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from pathlib import Path
 
 from wrapit.config import TracingConfig
@@ -9,6 +10,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import ConfigError, DrawingError, Finding
 
 BITMAPS = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".gif")
+_LONGEST_PLACE = 200
 
 
 def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Drawing, tuple[Finding, ...]]:
@@ -17,10 +19,7 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
     `size_mm` is the longest side of the piece; bitmaps need it. Raises ConfigError where it is
     missing, DrawingError where the file can't be read or is no line drawing.
     """
-    if not path.exists():
-        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config")
-    if not path.is_file():
-        raise DrawingError("the drawing is no file", str(path), "give the path of a picture")
+    _refuse_no_file(path)
     suffix = path.suffix.lower()
     if suffix == ".json":
         from wrapit.drawing.files import read_drawing
@@ -32,7 +31,7 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
         return trace_svg(path, tracing, size_mm)
     if suffix not in BITMAPS:
         raise DrawingError(
-            f"unknown kind of drawing {suffix!r}",
+            f"unknown kind of drawing {suffix[:40]!r}",
             str(path),
             "use .png, .jpg, .bmp, .tif, .webp, .svg or .json",
         )
@@ -41,3 +40,23 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
     from wrapit.drawing.bitmap import trace_bitmap
 
     return trace_bitmap(path, tracing, size_mm)
+
+
+def _refuse_no_file(path: Path) -> None:
+    """Only ordinary files are opened: reading a pipe or a device may never end."""
+    try:
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config") from None
+    except (OSError, ValueError) as error:
+        # Too long a name, no permission, links in a circle, a null character or half a character.
+        reason = getattr(error, "strerror", None) or str(error) or "the system gives no reason"
+        where = ascii(str(path))[1:-1]
+        raise DrawingError(
+            f"the drawing can't be reached ({reason.lower()})",
+            where if len(where) <= _LONGEST_PLACE else f"{where[:_LONGEST_PLACE]}…",
+            "check `drawing:` in the config",
+        ) from None
+    if not stat.S_ISREG(mode):
+        kind = "a folder" if stat.S_ISDIR(mode) else "a pipe or a device"
+        raise DrawingError(f"the drawing is no file but {kind}", str(path), "give the path of a picture")

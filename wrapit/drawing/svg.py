@@ -10,10 +10,11 @@ from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import assemble, placement
 from wrapit.drawing.coincident import without_coincident
 from wrapit.drawing.components import connect
+from wrapit.drawing.files import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.network import Change
 from wrapit.drawing.planar import planar
-from wrapit.drawing.svg_strokes import read_strokes
+from wrapit.drawing.svg_strokes import Strokes, read_strokes
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import FloatArray
 
@@ -23,6 +24,12 @@ _REACH = 0.95
 _REACH_SHARE = 2e-3
 # However broad the strokes are, no end farther away than this share of the size is meant.
 _MOST = 0.04
+_SMALLEST_SIZE_MM = 0.1
+# In sizes of the drawing: farther away, its coordinates lose what matters; broader, no line is seen.
+_FARTHEST = 1e7
+_BROADEST = 100.0
+# Finer strokes (in sizes of the drawing) are hairlines: they have no width that a file could hold.
+_FINEST = 1e-5
 
 
 def trace_svg(
@@ -37,6 +44,7 @@ def trace_svg(
     size = float(np.ptp(points, axis=0).max())
     if size <= 0:
         raise DrawingError("the lines have no length", str(path), "draw at least one line")
+    _refuse_absurd(points, size, strokes, size_mm, path)
     reach = _REACH * strokes.width_px if strokes.width_px else _REACH_SHARE * size
     curves, doubles = without_coincident(strokes.curves, min(reach, _MOST * size) / _REACH)
     graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle)
@@ -52,7 +60,7 @@ def trace_svg(
         connected.places,
         connected.pieces,
         where,
-        width=strokes.width_px,
+        width=strokes.width_px if (strokes.width_px or 0) >= _FINEST * size else None,
         changes=[*changes, *connected.changes],
         pixel_frame=False,
     )
@@ -83,6 +91,31 @@ def trace_svg(
             )
         )
     return drawing, tuple(findings)
+
+
+def _refuse_absurd(
+    points: FloatArray, size: float, strokes: Strokes, size_mm: float | None, path: Path
+) -> None:
+    """Refuses sizes that only a mistake of the unit or a slip of the pen gives."""
+    drawn_mm = size * strokes.mm_per_px
+    if size_mm is None and not _SMALLEST_SIZE_MM <= drawn_mm <= LARGEST_SIZE_MM:
+        raise DrawingError(
+            f"the drawing is {drawn_mm:.3g} mm large, which is no size for jewellery",
+            str(path),
+            "add `size: 40 mm` to the config",
+        )
+    if float(np.abs(points).max()) > _FARTHEST * size:
+        raise DrawingError(
+            f"the lines are {size:.2g} px large and lie {np.abs(points).max():.2g} px away from (0, 0)",
+            str(path),
+            "move them into the page",
+        )
+    if strokes.width_px is not None and strokes.width_px > _BROADEST * size:
+        raise DrawingError(
+            f"the strokes are {strokes.width_px:.2g} px wide, and the drawing is only {size:.2g} px large",
+            str(path),
+            "correct their stroke-width",
+        )
 
 
 def _pair(point: FloatArray) -> tuple[float, float]:

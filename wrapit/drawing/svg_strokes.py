@@ -13,11 +13,23 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.planar import Curve
+from wrapit.drawing.svg_document import Element, paths_of, safe_document
+from wrapit.drawing.svg_limits import refuse_parts
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
 _MM_PER_PX = 25.4 / 96
-_LARGEST_BYTES = 50_000_000
+_LARGEST_PX = 1e12
+# What svgelements raises on numbers and names that it can't make sense of.
+_FAULTS = (
+    ValueError,
+    TypeError,
+    AttributeError,
+    LookupError,
+    ArithmeticError,
+    AssertionError,
+    RecursionError,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +47,18 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
 
     Raises DrawingError where it can't be read, isn't safe, or has none.
     """
-    text = _safe_text(path)
-    root = _parsed(text, path)
+    data, elements = safe_document(path)
+    root = _drawn(data, elements, path)
+    try:
+        return _strokes(root, tracing, path)
+    except _FAULTS as error:
+        raise _not_understood(error, elements, path) from None
+
+
+def _strokes(root: Any, tracing: TracingConfig, path: Path) -> Strokes:
     curves: list[Curve] = []
     widths: list[float] = []
-    filled = 0
+    filled = parts = 0
     for shape in _shapes(root):
         stroked = _paints(shape.stroke)
         if not stroked:
@@ -50,6 +69,8 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
                 continue
         found = _curves(shape, path)
         curves += found
+        parts += sum(len(curve.cubics) for curve in found)
+        refuse_parts(parts, path)
         if stroked and shape.stroke_width:
             scale = math.sqrt(
                 abs(shape.transform.a * shape.transform.d - shape.transform.b * shape.transform.c)
@@ -76,76 +97,37 @@ def _mm_per_px(root: Any) -> float:
     return _MM_PER_PX / (25.4 * 0.0393701) if metric else _MM_PER_PX
 
 
-def _safe_text(path: Path) -> str:
-    """The file's text; entities and references to other files are refused before anything is parsed."""
-    try:
-        if path.stat().st_size > _LARGEST_BYTES:
-            raise DrawingError("the SVG file is larger than 50 MB", str(path), "simplify it")
-        text = path.read_bytes().decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DrawingError(
-            f"the SVG file can't be read ({error})", str(path), "save it as plain SVG"
-        ) from None
-    plain = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
-    if re.search(r"<!ENTITY|<!DOCTYPE[^>]*\[", plain, re.IGNORECASE):
-        raise DrawingError(
-            "the SVG file defines entities, which are not read for safety", str(path), "save it as plain SVG"
-        )
-    outside = re.search(
-        r"<\s*(?:\w+:)?(?:image|use|feImage|linearGradient|pattern)\b[^>]*?\bhref\s*=\s*[\"']\s*(?!#|data:)([^\"']*)",
-        plain,
-        re.IGNORECASE,
-    ) or re.search(r"@import\b[^;]*|url\(\s*[\"']?\s*(?!#|data:)([^)\"'\s#]+)|<\?xml-stylesheet", plain)
-    if outside:
-        raise DrawingError(
-            f"the SVG file refers to another file ({outside.group(0)[-60:].strip()}), which is never loaded",
-            str(path),
-            "embed or remove it",
-        )
-    return plain
-
-
-def _parsed(text: str, path: Path) -> Any:
+def _drawn(data: bytes, elements: Element, path: Path) -> Any:
     from xml.etree.ElementTree import ParseError
 
     from svgelements import SVG
 
-    bad = re.search(r"(?<![\w#-])(?:[-+]?nan|[-+]?inf(?:inity)?)(?![\w-])", _numbers(text), re.IGNORECASE)
-    if bad:
-        raise DrawingError(f"{bad.group(0)!r} is no coordinate", str(path), "correct the path data")
     try:
-        return SVG.parse(io.StringIO(text), reify=True, ppi=96.0, on_error="raise")
-    except ParseError as error:
-        line, column = error.position
-        raise DrawingError(
-            f"the SVG file is not valid XML ({error.msg.split(':')[0]})",
-            f"{path}:{line}:{column + 1}",
-            "it may be cut off; save it again",
-        ) from None
-    except (
-        ValueError,
-        TypeError,
-        AttributeError,
-        IndexError,
-        KeyError,
-        ZeroDivisionError,
-        RecursionError,
-    ) as error:
-        raise DrawingError(
-            f"the SVG file can't be understood ({type(error).__name__}: {error})",
-            str(path),
-            "save it as plain SVG",
-        ) from None
+        return SVG.parse(io.BytesIO(data), reify=True, ppi=96.0, on_error="raise")
+    except (*_FAULTS, ParseError) as error:
+        raise _not_understood(error, elements, path) from None
 
 
-def _numbers(text: str) -> str:
-    """Everything that should hold numbers: path data, points and geometry attributes."""
-    return " ".join(
-        value
-        for _, value in re.findall(
-            r"\s(d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height)\s*=\s*[\"']([^\"']*)", text
-        )
-    )
+def _not_understood(error: Exception, elements: Element, path: Path) -> DrawingError:
+    """The refusal of a file that svgelements can't read, with the path that is at fault where one is."""
+    from svgelements import Path as SvgPath
+
+    for element in paths_of(elements):
+        try:
+            SvgPath().parse(element.attributes["d"])
+        except _FAULTS:
+            name = element.attributes.get("id", "")
+            which = f" {name[:40]!r}" if name else ""
+            return DrawingError(
+                f"the data of path{which} is not complete or not in order",
+                f"{path}:{element.line}",
+                "correct it, or delete the path",
+            )
+    # The error's own text speaks of Python's lists, not of the file.
+    reason = "a number is out of its range or no number at all"
+    if isinstance(error, LookupError | TypeError | AttributeError):
+        reason = "a number or a name is missing where one is needed, as in a transform"
+    return DrawingError(f"the SVG file can't be understood ({reason})", str(path), "save it as plain SVG")
 
 
 def _shapes(root: Any) -> list[Any]:
@@ -225,8 +207,12 @@ def _curves(shape: Any, path: Path) -> list[Curve]:
 
 def _add(cubics: list[FloatArray], new: list[FloatArray], path: Path) -> None:
     for cubic in new:
-        if not np.isfinite(cubic).all() or np.abs(cubic).max() > 1e12:
+        if not np.isfinite(cubic).all():
             raise DrawingError("a coordinate is not a finite number", str(path), "correct the path data")
+        if np.abs(cubic).max() > _LARGEST_PX:
+            raise DrawingError(
+                f"a coordinate is larger than {_LARGEST_PX:g} px", str(path), "correct the path data"
+            )
         if np.abs(np.diff(cubic, axis=0)).max() > 1e-9:
             cubics.append(cubic)
 

@@ -1,0 +1,226 @@
+"""SVG files made to take for ever, or by mistake: refused at once, in one line, with place and remedy."""
+
+from __future__ import annotations
+
+import gzip
+import time
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tests.drawing.mutations import damaged
+from wrapit.config import TracingConfig
+from wrapit.drawing.files import drawing_json, read_drawing
+from wrapit.drawing.model import Drawing
+from wrapit.drawing.stage import trace
+from wrapit.drawing.svg_document import safe_document
+from wrapit.drawing.svg_limits import MOST_PARTS, MOST_SHAPES
+from wrapit.errors import DrawingError
+
+STROKE = 'fill="none" stroke="black" stroke-width="2"'
+CROSS = f'<path {STROKE} d="M10 10 L90 90 M10 50 L90 30"/>'
+# Far above what any refusal takes, far below what the patterns took.
+PATIENCE_S = 15.0
+
+
+def svg(body: str, size: str = 'width="100mm" height="100mm" viewBox="0 0 100 100"') -> bytes:
+    names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    return f"<svg {names} {size}>{body}</svg>".encode()
+
+
+def read(folder: Path, data: bytes, size_mm: float | None = None) -> Drawing:
+    path = folder / "drawing.svg"
+    path.write_bytes(data)
+    return trace(path, TracingConfig(), size_mm)[0]
+
+
+def refusal(folder: Path, data: bytes, size_mm: float | None = None) -> str:
+    begin = time.process_time()
+    with pytest.raises(DrawingError) as caught:
+        read(folder, data, size_mm)
+    assert time.process_time() - begin < PATIENCE_S
+    assert "drawing.svg" in caught.value.where
+    assert caught.value.remedy
+    assert "()" not in str(caught.value)
+    assert "Error" not in str(caught.value)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def pyramid(levels: int, copies: int) -> str:
+    defs = [f'<g id="g0">{CROSS}</g>']
+    defs += [
+        f'<g id="g{k}">' + f'<use xlink:href="#g{k - 1}"/>' * copies + "</g>" for k in range(1, levels + 1)
+    ]
+    return f'<defs>{"".join(defs)}</defs><use href="#g{levels}"/>'
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(levels=st.integers(1, 400), copies=st.integers(1, 30))
+def test_copies_are_counted_before_they_are_made(tmp_path, levels, copies):
+    made = sum(2 * copies**k for k in range(min(levels, 20) + 1))
+    data = svg(pyramid(levels, copies))
+    if made > MOST_SHAPES or levels > 150:
+        message = refusal(tmp_path, data)
+        assert "copies" in message or "deep" in message
+    elif made < MOST_SHAPES / 8 and levels < 40:
+        (tmp_path / "drawing.svg").write_bytes(data)
+        safe_document(tmp_path / "drawing.svg")
+
+
+def test_copies_that_are_few_are_drawn(tmp_path):
+    assert len(read(tmp_path, svg(pyramid(2, 3))).segments) == 4
+
+
+@pytest.mark.parametrize("length", [1, 2, 7, 3000])
+def test_copies_in_a_circle_are_refused(tmp_path, length):
+    ring = "".join(f'<g id="g{k}"><use href="#g{(k + 1) % length}"/></g>' for k in range(length))
+    assert "copy of itself" in refusal(tmp_path, svg(CROSS + ring))
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "<image " * 20_000,
+        "<!--" * 20_000,
+        '<g transform="' + "rotate(" * 20_000 + f'">{CROSS}</g>',
+        '<g style="transform:' + "rotate(" * 500 + f'">{CROSS}</g>',
+        "<style>" + "/*" * 100_000 + "</style>" + CROSS,
+        "<style>" + "a" * 500_000 + "</style>" + CROSS,
+        "<style>" + "a{" * 100_000 + "</style>" + CROSS,
+        "<style>.a{" + "x:y;" * 1000 + "}</style>" + f'<path class="{"a " * 50_000}" d="M0 0L9 9"/>' * 3,
+        f'<polyline {STROKE} points="{"1" * 20_000}"/>',
+        f'<polyline {STROKE} points="{("1" * 19 + ";") * 9_000}"/>',
+        f'<polyline {STROKE} points="{" " * 50_000}"/>',
+        f'<path {STROKE} d="M0 0L{"1" * 50_000}"/>',
+        f'<path stroke="rgb({",".join(["1" * 300] * 4)}" d="M0 0L9 9"/>',
+        '<g transform="' + "translate(1 1)" * 500 + '">' + CROSS * 2000 + "</g>",
+        "<g " + " ".join(f'a{k}="1"' for k in range(20_000)) + ">" + CROSS * 5000 + "</g>",
+        "<g>" * 10_000 + CROSS + "</g>" * 10_000,
+        f'<g fill="url({" " * 50_000}"/>{CROSS}',
+    ],
+    ids=lambda body: body[:24] + body[-12:],
+)
+def test_texts_that_would_take_minutes_are_refused(tmp_path, body):
+    refusal(tmp_path, svg(body))
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<path {STROKE} d="M0 0' + "".join(f"L{k % 97} {k % 89}" for k in range(MOST_PARTS + 1)) + '"/>',
+        f'<path {STROKE} d="M0 0h1"/>' * (MOST_SHAPES // 2) + f'<path {STROKE} d="M0 0{"h1v1" * 9000}"/>',
+        f'<polyline {STROKE} points="{"1,2 " * (MOST_PARTS + 2)}"/>',
+        f'<path {STROKE} d="M0 0{"a1 1 0 1 1 1 1" * 4000}"/>',
+    ],
+    ids=["one path", "many paths", "polyline", "arcs"],
+)
+def test_too_many_parts_are_refused_with_their_number(tmp_path, body):
+    assert f"the limit is {MOST_PARTS}" in refusal(tmp_path, svg(body))
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"", "empty"),
+        (b" \n", "empty"),
+        (b"<foo/>", "<foo>"),
+        (b'<g xmlns="http://www.w3.org/2000/svg"/>', "<g>"),
+        (b'<svg xmlns="http://example.com"><path d="M0 0"/></svg>', "no SVG"),
+        (b"<!DOCTYPE html><html><p>hello<br></html>", "web page"),
+        (b"\xef\xbb\xbf <html><svg/></html>", "web page"),
+        (gzip.compress(svg(CROSS)), "svgz"),
+        (b"\x89PNG\r\n\x1a\n", "PNG"),
+        (b"%PDF-1.7", "PDF"),
+        (svg(CROSS) + b"\0", "not valid XML"),
+        (b'<?xml version="1.0" encoding="foo"?>' + svg(CROSS), "encoding"),
+        (b'<?xml version="1.0" encoding="shift_jis"?>' + svg(CROSS), "encoding"),
+        (b'<?xml-stylesheet href="a.css"?>' + svg(CROSS), "another file"),
+        (
+            svg(CROSS + f'\n<path id="wing" {STROKE} d="M 10 10 L"/>'),
+            "drawing.svg:2: the data of path 'wing'",
+        ),
+        (svg(f'<g transform="matrix(1 2)">{CROSS}</g>'), "missing"),
+        (svg('<image xlink:href=" http://example.com/a.png"/>'), "another file"),
+        (svg(CROSS + '<path fill="url( http://example.com)" d=""/>'), "another file"),
+    ],
+)
+def test_what_is_no_svg_is_refused_in_words(tmp_path, data, reason):
+    assert reason in refusal(tmp_path, data)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "iso-8859-1", "windows-1252"])
+def test_the_encoding_that_the_file_names_is_read(tmp_path, encoding):
+    text = svg(f"<title>Flügel</title>{CROSS}").decode()
+    drawing = read(tmp_path, f'<?xml version="1.0" encoding="{encoding}"?>{text}'.encode(encoding))
+    assert len(drawing.segments) == 4
+
+
+def test_styles_and_document_types_as_programs_write_them_are_read(tmp_path):
+    head = (
+        b'<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">'
+    )
+    style = "<style>/* a */ .a{stroke:rgb(10.5%, 0%, 0%); fill:none} @media print{.b{fill:red}}/* b */"
+    body = style + '</style><path class="a" d="M10 10 L90 90 M10 50 L90 30"/><path fill="url(#x)" d=""/>'
+    assert len(read(tmp_path, head + svg(body)).segments) == 4
+
+
+NUMBERS = st.one_of(
+    st.sampled_from(("1e9", "1e12", "1e154", "1e155", "1e300", "1e309", "-1e400", "1e-300", "nan", "0")),
+    st.floats(allow_nan=True).map(repr),
+)
+SHAPES = (
+    '<path {s} d="M10 10 L{n} 90 M10 50 L90 30"/>',
+    '<path {s} d="M{n} {n} l10 10"/>',
+    '<path {s} d="M10 10A{n} 5 {n} 0 1 50 50"/>',
+    '<g transform="scale({n})"><path {s} d="M10 10 L90 90"/></g>',
+    '<g transform="rotate({n}) translate({n} 3) skewX({n})"><path {s} d="M10 10 L90 90"/></g>',
+    '<path fill="none" stroke="black" stroke-width="{n}" d="M10 10 L90 90"/>',
+    '<circle {s} r="{n}"/>',
+    '<ellipse {s} cx="{n}" rx="{n}" ry="3"/>',
+    '<rect {s} width="{n}" height="5" rx="{n}"/>',
+)
+
+
+@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(shape=st.sampled_from(SHAPES), number=NUMBERS, where=st.sampled_from(("shape", "page", "box")))
+def test_any_number_is_drawn_or_refused(tmp_path, shape, number, where):
+    size = {"page": f'width="{number}mm" height="{number}mm" viewBox="0 0 100 100"'}.get(
+        where, f'width="100mm" viewBox="0 0 {number} {number}"' if where == "box" else 'width="100mm"'
+    )
+    check(tmp_path, svg(shape.format(s=STROKE, n=number), size))
+
+
+def check(folder: Path, data: bytes) -> None:
+    """Draws or refuses; what is drawn can be written and read again."""
+    begin = time.process_time()
+    drawing, refused = None, None
+    try:
+        drawing = read(folder, data)
+    except DrawingError as error:
+        refused = error
+    assert time.process_time() - begin < PATIENCE_S
+    if drawing is not None:
+        (folder / "drawing.json").write_text(drawing_json(drawing), encoding="utf-8")
+        read_drawing(folder / "drawing.json")
+    if refused is not None:
+        assert refused.remedy
+        assert refused.where.startswith(str(folder))
+        assert "()" not in str(refused)
+
+
+VALID = svg(
+    "<style>.a{stroke:#f00;fill:none}</style><!-- wing -->"
+    f"<defs><g id='a'><circle r='9' class='a'/></g></defs>{CROSS}"
+    "<g transform='rotate(3) translate(4 5)'><use xlink:href='#a'/></g>"
+    f"<polyline {STROKE} points='1,2 30,4 5,60'/>"
+    f"<path {STROKE} d='M10 50A20 20 0 0 1 50 50Q60 70 70 50T90 50z'/>"
+)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=damaged(VALID))
+def test_damaged_files_are_drawn_or_refused(tmp_path, data):
+    check(tmp_path, data)
