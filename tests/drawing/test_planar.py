@@ -15,9 +15,10 @@ from hypothesis import strategies as st
 from shapely import LineString, Point, get_parts, polygonize
 
 from wrapit.config import TracingConfig
-from wrapit.drawing import coincident, meetings
+from wrapit.drawing import meetings
 from wrapit.drawing.coincident import without_coincident
 from wrapit.drawing.cutting import stretches
+from wrapit.drawing.neighbours import Parallels
 from wrapit.drawing.places import Places
 from wrapit.drawing.planar import Curve, Planar, planar
 from wrapit.drawing.stage import trace
@@ -278,15 +279,11 @@ def test_coincident_strokes_are_those_of_comparing_all_pairs(seed):
             Curve(shifted, curve.closed) if rng.integers(2) else Curve(shifted[:2, ::-1][::-1], False)
         )
     found = without_coincident(curves, width)
-    with mock.patch.object(coincident, "parallels", _all_pairs):
+    with mock.patch.object(Parallels, "beside", lambda self, _: self._courses):
         plain = without_coincident(curves, width)
     assert [kept.closed for kept in found[0]] == [kept.closed for kept in plain[0]]
     assert all(np.array_equal(a.cubics, b.cubics) for a, b in zip(found[0], plain[0], strict=True))
     assert [length for _, length in found[1]] == [length for _, length in plain[1]]
-
-
-def _all_pairs(courses: dict[int, object], *_: float) -> dict[int, set[int]]:
-    return {number: {other for other in courses if other < number} for number in courses}
 
 
 def test_an_end_touches_a_curve_that_stands_still_there():
