@@ -236,3 +236,13 @@ def test_too_many_crossings_are_refused_with_place_and_remedy(monkeypatch, tmp_p
     path.write_text(picture.format("".join(f"M0 {k}H20M{k} 0V20" for k in range(1, 9))))
     drawing, _ = trace(path, TracingConfig(), 40.0)
     assert len(drawing.junctions) == 64 + 32
+
+
+def test_lines_that_run_close_beside_each_other_too_often_are_refused(monkeypatch):
+    hatching = [through(np.array([[k, 0], [k + 200, 200.0]])) for k in range(60)]
+    assert shape(planar(hatching, 0.1, CORNER_RAD))[:3] == (120, 60, 60)
+    monkeypatch.setattr(meetings, "MOST_PAIRS", 1000)
+    with pytest.raises(
+        DrawingError, match=r"^hatching\.svg: the lines cross, or run close beside each other"
+    ):
+        planar(hatching, 0.1, CORNER_RAD, "hatching.svg")
