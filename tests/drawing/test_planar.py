@@ -15,16 +15,14 @@ from hypothesis import strategies as st
 from shapely import LineString, Point, get_parts, polygonize
 
 from wrapit.config import TracingConfig
-from wrapit.drawing import coincident, meetings
+from wrapit.drawing import meetings
 from wrapit.drawing.coincident import without_coincident
-from wrapit.drawing.cutting import stretches
-from wrapit.drawing.places import Places
+from wrapit.drawing.neighbours import Parallels
 from wrapit.drawing.planar import Curve, Planar, planar
 from wrapit.drawing.stage import trace
 from wrapit.drawing.tidying import rejoined
 from wrapit.errors import DrawingError
 from wrapit.geometry import BezierChain, FloatArray
-from wrapit.geometry.bezier import evaluate, split
 
 CORNER_RAD = 0.6
 FEW = settings(max_examples=30, deadline=None)
@@ -174,75 +172,6 @@ def test_lines_through_one_point_share_one_node(seed, count):
     assert shape(graph) == (2 * count + 1, 2 * count, 1, [*[1] * 2 * count, 2 * count])
 
 
-class PlainPlaces:
-    """What `Places` says, said plainly: all points compared, all numbers rewritten."""
-
-    def __init__(self, tolerance: float) -> None:
-        self.tolerance, self.points, self.owner, self.place, self.settled = tolerance, [], [], {}, set()
-
-    def find(self, point: FloatArray) -> int:
-        if self.points:
-            far = np.linalg.norm(np.array(self.points) - point, axis=1)
-            if far.min() <= self.tolerance:
-                return self.owner[int(np.argmin(far))]
-        self.points.append(point)
-        self.owner.append(len(self.owner))
-        self.place[self.owner[-1]] = point
-        return self.owner[-1]
-
-    def join(self, points: list[FloatArray], place: FloatArray) -> None:
-        found = sorted({self.find(point) for point in points})
-        self.owner = [found[0] if owner in found else owner for owner in self.owner]
-        if not self.settled & set(found):
-            self.place[found[0]] = place
-        for other in found[1:]:
-            self.place.pop(other)
-        self.settled.add(found[0])
-
-
-@FEW
-@given(SEEDS, st.sampled_from([1e-9, 0.01, 0.3, 1.0, 50.0]), st.sampled_from([0.0, -1e6, 1e12]))
-def test_places_by_grid_are_those_of_comparing_all(seed, tolerance, offset):
-    rng = np.random.default_rng(seed)
-    # Whole multiples of the tolerance lie exactly at the edge of cells and of reach.
-    points = offset + rng.choice([tolerance * rng.integers(-4, 5, (60, 2)), rng.normal(0, 5, (60, 2))])
-    quick, plain = Places(tolerance), PlainPlaces(tolerance)
-    for k, point in enumerate(points):
-        some = [point, *points[rng.integers(len(points), size=rng.integers(0, 3))]]
-        if k % 3:
-            assert quick.find(point) == plain.find(point)
-        else:
-            quick.join(some, point)
-            plain.join(some, point)
-    assert [quick.find(point) for point in points] == [plain.find(point) for point in points]
-    assert list(quick.all()) == list(plain.place)
-    assert all(np.array_equal(quick.place(number), place) for number, place in plain.place.items())
-
-
-@FEW
-@given(SEEDS)
-def test_stretches_cut_at_once_are_those_cut_one_by_one(seed):
-    rng = np.random.default_rng(seed)
-    cubics = wavy(rng, closed=True).cubics
-    count = len(cubics)
-    starts = rng.choice([rng.uniform(0, count, 8), rng.integers(0, count, 8).astype(float)])
-    ends = starts + rng.choice([0, 1e-8, 0.3, 1, 2.5, count], 8)
-    for start, end, found in zip(starts, ends, stretches(cubics, starts, ends), strict=True):
-        if end - start <= 1e-7:
-            assert found is None
-            continue
-        assert found is not None
-        assert np.array_equal(found[1:, 0], found[:-1, 3])
-        for at, point in ((start, found[0, 0]), (end, found[-1, 3])):
-            k = math.floor(at)
-            assert evaluate(cubics[k % count][None], np.array([at - k]))[0, 0] == pytest.approx(point)
-        if math.floor(start) + 1 >= end:
-            low, high = start - math.floor(start), end - math.floor(start)
-            left = split(cubics[math.floor(start) % count][None], high)[0] if high < 1 else None
-            whole = cubics[math.floor(start) % count][None] if left is None else left
-            assert np.array_equal(found, split(whole, low / high)[1] if low > 0 else whole)
-
-
 @FEW
 @given(SEEDS, st.booleans(), st.integers(2, 16))
 def test_a_stroke_drawn_in_parts_becomes_one_however_they_lie(seed, closed, count):
@@ -278,15 +207,11 @@ def test_coincident_strokes_are_those_of_comparing_all_pairs(seed):
             Curve(shifted, curve.closed) if rng.integers(2) else Curve(shifted[:2, ::-1][::-1], False)
         )
     found = without_coincident(curves, width)
-    with mock.patch.object(coincident, "parallels", _all_pairs):
+    with mock.patch.object(Parallels, "beside", lambda self, _: self._courses):
         plain = without_coincident(curves, width)
     assert [kept.closed for kept in found[0]] == [kept.closed for kept in plain[0]]
     assert all(np.array_equal(a.cubics, b.cubics) for a, b in zip(found[0], plain[0], strict=True))
     assert [length for _, length in found[1]] == [length for _, length in plain[1]]
-
-
-def _all_pairs(courses: dict[int, object], *_: float) -> dict[int, set[int]]:
-    return {number: {other for other in courses if other < number} for number in courses}
 
 
 def test_an_end_touches_a_curve_that_stands_still_there():
@@ -311,3 +236,13 @@ def test_too_many_crossings_are_refused_with_place_and_remedy(monkeypatch, tmp_p
     path.write_text(picture.format("".join(f"M0 {k}H20M{k} 0V20" for k in range(1, 9))))
     drawing, _ = trace(path, TracingConfig(), 40.0)
     assert len(drawing.junctions) == 64 + 32
+
+
+def test_lines_that_run_close_beside_each_other_too_often_are_refused(monkeypatch):
+    hatching = [through(np.array([[k, 0], [k + 200, 200.0]])) for k in range(60)]
+    assert shape(planar(hatching, 0.1, CORNER_RAD))[:3] == (120, 60, 60)
+    monkeypatch.setattr(meetings, "MOST_PAIRS", 1000)
+    with pytest.raises(
+        DrawingError, match=r"^hatching\.svg: the lines cross, or run close beside each other"
+    ):
+        planar(hatching, 0.1, CORNER_RAD, "hatching.svg")

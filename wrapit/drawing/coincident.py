@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.cutting import moved
-from wrapit.drawing.neighbours import Boxes, Course, parallels
+from wrapit.drawing.neighbours import Boxes, Course, Parallels
 from wrapit.drawing.planar import Curve, stretch
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.bezier import evaluate
@@ -39,8 +39,8 @@ def without_coincident(
         if spans:
             spans = _united(spans)
             doubles += [_middle(curve, span) for span in spans]
-            rest = _rest(curve, index, spans, laid)
-            laid.replace(index, rest)
+            rest = _rest(curve, spans, laid)
+        laid.keep(index, rest)
         kept += rest
     return kept, doubles
 
@@ -53,37 +53,41 @@ class _Laid:
         self._curves = curves
         # Twice a width: a rest's ends move by less than one, and what is near counts within a third of one.
         self._boxes = Boxes([curve.cubics for curve in curves], 2 * width)
-        apart = self._boxes.apart()
-        self._courses = {k: _course(curve, width) for k, curve in enumerate(curves) if k not in apart}
-        self._parallel = parallels(self._courses, _NEAR * width, _PARALLEL)
-        # Curves of which only parts are left, and those parts.
-        self._parts: dict[int, list[Course]] = {}
+        self._apart = self._boxes.apart()
+        self._kept: dict[int, list[Course]] = {}
+        self._parallels = Parallels(_NEAR * width, _PARALLEL)
+        self._latest: tuple[Curve, Course] | None = None
 
     def spans(self, index: int) -> list[tuple[float, float]]:
         """Where a curve runs on earlier ones, as parameters."""
-        if index not in self._courses:
+        if index in self._apart:
             return []
-        whole = self._parallel[index] - self._parts.keys()
-        parts = {k for k in self._boxes.meeting(index) if k in self._parts} if self._parts else set()
-        curve, course = self._curves[index], self._courses[index]
-        others = [other for k in sorted(whole | parts) for other in self._of(k)]
+        curve = self._curves[index]
+        course = self._course(curve)
+        others = self._parallels.beside(course)
         return [span for other in others for span in _spans(curve, course, other, self.width)]
 
-    def replace(self, index: int, rest: list[Curve]) -> None:
-        """Says that only parts of a curve are left."""
-        self._parts[index] = [_course(part, self.width) for part in rest]
+    def keep(self, index: int, rest: list[Curve]) -> None:
+        """Says what is kept of a curve: all of it, parts, or nothing."""
+        if index not in self._apart:
+            self._kept[index] = [self._course(part) for part in rest]
+            for course in self._kept[index]:
+                self._parallels.add(course)
 
-    def onto(self, point: FloatArray, before: int) -> FloatArray:
-        """The nearest point on the curves before one, if it lies under the same ink."""
+    def onto(self, point: FloatArray) -> FloatArray:
+        """The nearest point on the curves kept so far, if it lies under the same ink."""
         feet = []
-        for course in (c for k in self._boxes.around(point) if k < before for c in self._of(k)):
+        for course in (course for k in self._boxes.around(point) for course in self._kept.get(k, [])):
             signed, foot, _ = _offsets(point[None], course)
             feet.append((abs(float(signed[0])), foot[0]))
         far, foot = min(feet, key=lambda item: item[0], default=(np.inf, point))
         return foot if far < 2 * _NEAR * self.width else point
 
-    def _of(self, index: int) -> list[Course]:
-        return self._parts.get(index, [self._courses[index]])
+    def _course(self, curve: Curve) -> Course:
+        # Mostly the curve just looked at, which is kept whole.
+        if self._latest is None or self._latest[0] is not curve:
+            self._latest = curve, _course(curve, self.width)
+        return self._latest[1]
 
 
 def _course(curve: Curve, width: float) -> Course:
@@ -191,7 +195,7 @@ def _united(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return joined
 
 
-def _rest(curve: Curve, index: int, spans: list[tuple[float, float]], laid: _Laid) -> list[Curve]:
+def _rest(curve: Curve, spans: list[tuple[float, float]], laid: _Laid) -> list[Curve]:
     """What is left of a curve beside the spans; its new ends lie on the curves that they ran on."""
     count = float(len(curve.cubics))
     ends = [(end, after[0]) for (_, end), after in itertools.pairwise(spans)]
@@ -206,8 +210,8 @@ def _rest(curve: Curve, index: int, spans: list[tuple[float, float]], laid: _Lai
         cubics = stretch(curve, start, end) if end > start else None
         if cubics is None:
             continue
-        first = laid.onto(cubics[0, 0], index) if at_start else cubics[0, 0]
-        last = laid.onto(cubics[-1, 3], index) if at_end else cubics[-1, 3]
+        first = laid.onto(cubics[0, 0]) if at_start else cubics[0, 0]
+        last = laid.onto(cubics[-1, 3]) if at_end else cubics[-1, 3]
         chain = moved(cubics, first, last)
         if chain.length > _REST * laid.width:
             rest.append(Curve(chain.points, closed=False))

@@ -16,8 +16,8 @@ from wrapit.geometry import FloatArray, IntArray
 _SAME = 1e-6
 # On one curve, meeting itself: closer than this is a step and its neighbour.
 _ITSELF = 1e-3
-# What takes about a minute on a laptop, as `python -m tests.bench.drawing` measures it; no drawing of a
-# thing to be bent from wire has a hundredth of it.
+# What takes about a minute: 1,200 random lines with 164,000 crossings were measured at 47 s, and pairs of
+# steps that only run close beside each other, as in hatching, at 4 million a second.
 MOST_CONTACTS = 200_000
 MOST_PAIRS = 200_000_000
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,6 +11,9 @@ import numpy as np
 
 from wrapit.drawing.steps import queried
 from wrapit.geometry import FloatArray, IntArray, unit
+
+# Courses in the smallest group, and groups that make a larger one: few trees to ask, few times built anew.
+_GROUP = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,10 +53,6 @@ class Boxes:
         self._boxes = box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
         self._tree = STRtree(self._boxes)
 
-    def meeting(self, curve: int) -> set[int]:
-        """Numbers of the curves whose boxes meet that of a curve, its own among them."""
-        return set(self._tree.query(self._boxes[curve]).tolist())
-
     def around(self, point: FloatArray) -> list[int]:
         """Numbers of the curves whose boxes hold a point, ascending."""
         from shapely import Point
@@ -65,37 +65,71 @@ class Boxes:
         return set(np.flatnonzero(np.bincount(other, minlength=len(self._boxes)) == 1).tolist())
 
 
-def parallels(courses: dict[int, Course], near: float, sine: float) -> dict[int, set[int]]:
-    """For each course the earlier ones that it is near to and parallel with at two of its points or more.
+class Parallels:
+    """Courses, and which of them run beside another: near to it, and in much the same direction.
 
-    Near: closer than `near` to a step of theirs; parallel: the sine of the angle is less than `sine`.
+    Near: closer than `near` to a step of theirs; much the same: the sine of the angle is less than `sine`.
+    Courses are added one by one, so that what is never added costs nothing. Trees can't grow: the courses
+    are in groups, and as soon as there are several of one size they become one of the next.
     """
-    from shapely import STRtree, box, linestrings
 
-    found: dict[int, set[int]] = {number: set() for number in courses}
-    if len(courses) < 2:
-        return found
-    points = np.concatenate([course.points for course in courses.values()])
-    directions = np.concatenate([course.directions for course in courses.values()])
-    owner = np.repeat(list(courses), [len(course.points) for course in courses.values()])
-    steps = np.stack([points[:-1], points[1:]], axis=1)[owner[:-1] == owner[1:]]
-    of_step = owner[:-1][owner[:-1] == owner[1:]]
-    tree = STRtree(linestrings(steps))
-    # A little more, so that nothing is lost to rounding.
-    near = near * (1 + 1e-9) + 1e-12 * float(np.abs(points).max())
-    pairs = []
-    for at, step in queried(
-        tree, len(points), lambda some: box(*(points[some] - near).T, *(points[some] + near).T)
-    ):
-        earlier = of_step[step] < owner[at]
-        both = np.column_stack([owner[at], of_step[step], at, step])[earlier]
-        at_point, at_step = both[:, 2], both[:, 3]
-        kept = _beside(points[at_point], directions[at_point], steps[at_step], near, sine + 1e-9)
-        pairs.append(np.unique(both[kept, :3], axis=0))
-    curves, count = np.unique(np.concatenate(pairs)[:, :2], axis=0, return_counts=True)
-    for number, other in curves[count > 1].tolist():
-        found[number].add(other)
-    return found
+    def __init__(self, near: float, sine: float) -> None:
+        self._near, self._sine = near, sine
+        self._courses: list[Course] = []
+        self._waiting: list[int] = []
+        self._groups: list[list[_Group]] = []
+
+    def add(self, course: Course) -> None:
+        """Adds a course."""
+        self._waiting.append(len(self._courses))
+        self._courses.append(course)
+        if len(self._waiting) < _GROUP:
+            return
+        members, self._waiting = self._waiting, []
+        for level in itertools.count():
+            if level == len(self._groups):
+                self._groups.append([])
+            if len(self._groups[level]) < _GROUP - 1:
+                self._groups[level].append(_Group(self._courses, members))
+                return
+            members = [*itertools.chain.from_iterable(g.members for g in self._groups[level]), *members]
+            self._groups[level] = []
+
+    def beside(self, course: Course) -> list[Course]:
+        """The courses that may run beside another at two of its points or more, in the order of adding."""
+        found = set(self._waiting)
+        # A little more, so that nothing is lost to rounding.
+        near = self._near * (1 + 1e-9) + 1e-12 * float(np.abs(course.points).max())
+        for group in itertools.chain.from_iterable(self._groups):
+            found |= group.beside(course, near, self._sine + 1e-9)
+        return [self._courses[number] for number in sorted(found)]
+
+
+class _Group:
+    """Some of a list of courses, in a tree over their steps."""
+
+    def __init__(self, courses: list[Course], members: list[int]) -> None:
+        from shapely import STRtree, linestrings
+
+        self.members = members
+        chosen = [courses[number].points for number in members]
+        self._owner = np.repeat(members, [len(points) - 1 for points in chosen])
+        self._steps = np.concatenate([np.stack([points[:-1], points[1:]], axis=1) for points in chosen])
+        self._tree = STRtree(linestrings(self._steps))
+
+    def beside(self, course: Course, near: float, sine: float) -> set[int]:
+        """Members that a course runs beside at two of its points or more."""
+        from shapely import box
+
+        points = course.points
+        pairs = []
+        for at, step in queried(
+            self._tree, len(points), lambda some: box(*(points[some] - near).T, *(points[some] + near).T)
+        ):
+            kept = _beside(points[at], course.directions[at], self._steps[step], near, sine)
+            pairs.append(np.unique(np.column_stack([self._owner[step], at])[kept], axis=0))
+        members, count = np.unique(np.concatenate(pairs)[:, 0], return_counts=True)
+        return set(members[count > 1].tolist())
 
 
 def _beside(
