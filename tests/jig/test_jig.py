@@ -115,7 +115,7 @@ def test_tight_turn_gets_a_pin() -> None:
     assert pin.diameter_mm == pytest.approx(0.6)
     assert math.dist(pin.centre, (15, 1.05)) < 0.1
     assert "pin" in {finding.code for finding in findings}
-    assert not build_jig(wires_of([chain]), config(pins=False))[0].jigs[0].plan.pins
+    assert not build_jig(wires_of([chain]), config(pins=False, least_support=0))[0].jigs[0].plan.pins
 
 
 def test_walls_rise_where_wires_cross() -> None:
@@ -138,7 +138,7 @@ def test_numbers_are_engraved_or_missed() -> None:
 def test_split_frees_a_packed_piece() -> None:
     # Rings 0.9 mm apart: only the first and the last leave room for a wall between them.
     rings = [circle(9 + 0.9 * i) for i in range(4)]
-    single, _ = build_jig(wires_of(rings), config(split="single"))
+    single, _ = build_jig(wires_of(rings), config(split="single", least_support=0))
     weakest = min(support_by_wire(single.jigs[0].support).values())
     jigs, findings = build_jig(wires_of(rings), config(min_turn_support=weakest + 0.05))
     assert jigs.split == "per-wire"

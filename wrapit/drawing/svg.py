@@ -47,7 +47,7 @@ def trace_svg(
     _refuse_absurd(points, size, strokes, size_mm, path)
     reach = _REACH * strokes.width_px if strokes.width_px else _REACH_SHARE * size
     curves, doubles = without_coincident(strokes.curves, min(reach, _MOST * size) / _REACH)
-    graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle)
+    graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle, str(path))
     if not graph.pieces:
         raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
     changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]

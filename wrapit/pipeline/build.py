@@ -11,7 +11,7 @@ from typing import Any
 from wrapit.config import load_config, named_after
 from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
-from wrapit.pipeline.folder import check_target, followed, put_in_place, renamed_beside_others, staged
+from wrapit.pipeline.folder import followed, prepare, put_in_place, renamed_beside_others, staged
 from wrapit.pipeline.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
 from wrapit.pipeline.remedies import what_would_do
 from wrapit.pipeline.stages import STAGES, Progress, Stage, Work, run_stages
@@ -53,7 +53,7 @@ def build(
     sources = (config_path, work.drawing_path)
     target = target if target is not None else Path("build") / work.config.name
     folder = followed(target)
-    check_target(folder)
+    prepare(folder)
     earlier = _earlier_build(folder, work)
     if earlier is not None:
         if not force and _covers(earlier, folder, work):

@@ -11,11 +11,11 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import secrets
 import shutil
 import signal
 import stat
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -56,9 +56,13 @@ def followed(target: Path) -> Path:
     return folder
 
 
-def check_target(folder: Path) -> None:
-    """Raises ConfigError when the folder holds files and none of them says that wrapit wrote it."""
+def prepare(folder: Path) -> None:
+    """Clears away what killed builds of this folder left, and finishes one that was killed at its end.
+
+    Raises ConfigError when the folder holds files and none of them says that wrapit wrote it.
+    """
     try:
+        _clear_leftovers(folder)
         foreign = folder.is_dir() and own_report(folder) is None and any(_others(folder))
     except OSError as error:
         raise _unwritable(error, folder) from None
@@ -73,27 +77,36 @@ def _others(folder: Path) -> Iterator[Path]:
 
 @contextmanager
 def staged(folder: Path) -> Iterator[Path]:
-    """A temporary folder for the files of a build, cleared away at the end; before, what killed builds left.
+    """A temporary folder for the files of a build, cleared away at the end.
 
-    Raises ConfigError when the folder isn't wrapit's, ExportError when its place can't be written.
+    Raises ExportError when its place can't be written.
     """
     made = _missing_parents(folder)
+    # Named before it is made: whenever a signal ends this, it is cleared away.
+    partial = _staging_place(folder) / f"{_prefix(folder)}{secrets.token_hex(4)}.partial"
+    lock = None
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        _clear_leftovers(folder)
-        check_target(folder)
-        partial, lock = _locked_partial(folder)
-    except OSError as error:
-        _remove_empty(made)
-        raise _unwritable(error, folder) from None
-    try:
+        lock = _made_and_locked(partial)
         yield partial
     except OSError as error:
         raise _unwritable(error, folder) from error
     finally:
-        shutil.rmtree(partial, ignore_errors=True)
-        _unlock(lock)
-        _remove_empty(made)
+        with _signals_held():
+            shutil.rmtree(partial, ignore_errors=True)
+            _unlock(lock)
+            _remove_empty(made)
+
+
+def _made_and_locked(partial: Path) -> int | None:
+    while True:
+        partial.mkdir()
+        with contextlib.suppress(FileNotFoundError):
+            lock = _lock(partial, wait=True)
+            if partial.exists():
+                return lock
+            _unlock(lock)
+        # Another build took it for a leftover in the moment before it was locked.
 
 
 def renamed_beside_others(partial: Path, folder: Path) -> tuple[dict[str, str], tuple[Finding, ...]]:
@@ -177,10 +190,9 @@ def _move_in(ready: Path, folder: Path) -> None:
 
 
 def _clear_leftovers(folder: Path) -> None:
-    """Takes away what killed builds of this folder left, and finishes one that was killed at its end."""
     pattern = _leftover_pattern(folder)
-    for place in {folder.parent, folder} if folder.is_dir() else {folder.parent}:
-        for path in sorted(place.iterdir()):
+    for place in (folder.parent, folder):
+        for path in sorted(place.iterdir()) if place.is_dir() else ():
             match = pattern.fullmatch(path.name)
             if match is None or path.is_symlink() or not path.is_dir():
                 continue
@@ -204,17 +216,6 @@ def _prefix(folder: Path) -> str:
 
 def _leftover_pattern(folder: Path) -> re.Pattern[str]:
     return re.compile(rf"{re.escape(_prefix(folder))}[a-z0-9_]{{8}}\.(?P<state>partial|ready)")
-
-
-def _locked_partial(folder: Path) -> tuple[Path, int | None]:
-    while True:
-        made = tempfile.mkdtemp(prefix=_prefix(folder), suffix=".partial", dir=_staging_place(folder))
-        partial = Path(made)
-        partial.chmod(0o755)
-        lock = _lock(partial, wait=True)
-        if partial.exists():  # else another build took it for a leftover in the moment before it was locked
-            return partial, lock
-        _unlock(lock)
 
 
 def _staging_place(folder: Path) -> Path:
