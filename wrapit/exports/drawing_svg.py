@@ -10,6 +10,7 @@ import numpy as np
 from wrapit.drawing.model import Drawing, Removal
 from wrapit.exports.svgpage import (
     FONT,
+    MANY_LABELS,
     anchors,
     attributes,
     bounds_with_labels,
@@ -23,19 +24,25 @@ from wrapit.geometry.labels import Label, place_labels
 from wrapit.geometry.svgframe import SvgFrame
 
 INK, BRIDGE, SEGMENT_NUMBER, JUNCTION, REMOVED = "#1c1c1c", "#7a3fa0", "#0b5a8a", "#b02a1a", "#8a5a00"
+# More numbers can't be read at any size that shows the drawing.
+MOST_LABELS = 8000
+# Where there are many numbers, those that find no place so near are left out.
+CROWDED_RINGS = 6
 
 
 def drawing_svg(drawing: Drawing) -> str:
     """SVG in true millimetres: segments in ink, numbered segments and junctions, and what was removed.
 
-    No two numbers overlap; a number that finds no room beside its curve stands apart, on a thin line.
+    No two numbers overlap; a number that finds no room beside its curve stands apart, on a thin line. In
+    drawings with very many, some or all numbers are not written but shown where the pointer rests.
     """
     low, high = drawing.bounds_mm
     removed = np.array([removal.at for removal in drawing.removed]).reshape(-1, 2)
     low, high = np.vstack([low, removed]).min(axis=0), np.vstack([high, removed]).max(axis=0)
-    size_mm = label_size_mm([segment.curve for segment in drawing.segments], low, high)
+    labels = len(drawing.segments) + len(drawing.junctions)
+    size_mm = label_size_mm([segment.curve for segment in drawing.segments], low, high, labels)
     legend = _legend(drawing)
-    junctions, segments = _placed_numbers(drawing, removed, size_mm)
+    junctions, segments = _placed_numbers(drawing, removed, size_mm) if labels <= MOST_LABELS else ((), ())
     low, high = bounds_with_labels(low, high, (*junctions, *segments))
     frame = SvgFrame.around(low, high, 2 * size_mm, below_mm=1.6 * size_mm * len(legend))
     body = [f'<g font-family="{FONT}">']
@@ -61,13 +68,15 @@ def drawing_svg(drawing: Drawing) -> str:
 def _ink(drawing: Drawing, frame: SvgFrame) -> list[str]:
     width = drawing.stroke_width_mm or 0.5
     style = attributes(fill="none", stroke_linecap="round", stroke_linejoin="round", stroke_width=width)
+    crowded = _is_crowded(drawing)
     lines = []
     for segment in drawing.segments:
         look = {"stroke": INK}
         if segment.kind == "bridge":
             look = {"stroke": BRIDGE, "stroke-dasharray": f"{2 * width:g} {2 * width:g}"}
         shape = attributes(id=f"segment-{segment.id}", d=frame.path(segment.curve), **look)
-        lines.append(f"<path {shape} {style}/>")
+        tip = f"><title>segment {segment.id}</title></path>" if crowded else "/>"
+        lines.append(f"<path {shape} {style}{tip}")
     return lines
 
 
@@ -75,13 +84,17 @@ def _placed_numbers(
     drawing: Drawing, removed: FloatArray, size_mm: float
 ) -> tuple[tuple[Label, ...], tuple[Label, ...]]:
     """Labels of the junctions and of the segments."""
+    crowded = _is_crowded(drawing)
+    rings = CROWDED_RINGS if crowded else None
     points = [junction.point[None] for junction in drawing.junctions]
     ink = np.vstack(
         [*(segment.curve.sampled(0.2 * size_mm) for segment in drawing.segments), *points, removed]
     )
-    junctions = place_labels([(str(index), point) for index, point in enumerate(points)], ink, size_mm)
-    wanted = [(str(segment.id), anchors(segment.curve)) for segment in drawing.segments]
-    return junctions, place_labels(wanted, ink, size_mm, taken=junctions)
+    junctions = place_labels(
+        [(str(index), point) for index, point in enumerate(points)], ink, size_mm, rings=rings
+    )
+    wanted = [(str(segment.id), anchors(segment.curve, quickly=crowded)) for segment in drawing.segments]
+    return junctions, place_labels(wanted, ink, size_mm, junctions, rings)
 
 
 def _numbers(
@@ -91,10 +104,12 @@ def _numbers(
     frame: SvgFrame,
     size_mm: float,
 ) -> list[str]:
-    dots = [
-        f"<circle {attributes(cx=x, cy=y, r=0.28 * size_mm, fill=JUNCTION)}/>"
-        for x, y in (frame.at(junction.point) for junction in drawing.junctions)
-    ]
+    crowded = _is_crowded(drawing)
+    dots = []
+    for junction in drawing.junctions:
+        x, y = frame.at(junction.point)
+        tip = f"><title>junction {junction.id}</title></circle>" if crowded else "/>"
+        dots.append(f"<circle {attributes(cx=x, cy=y, r=0.28 * size_mm, fill=JUNCTION)}{tip}")
     return [
         *dots,
         '<g font-style="italic">',
@@ -120,6 +135,8 @@ def _legend(drawing: Drawing) -> list[tuple[str, str]]:
         ("bold blue number: segment", SEGMENT_NUMBER),
         ("dot and slanted red number: junction", JUNCTION),
     ]
+    if _is_crowded(drawing):
+        lines.append(("numbers without room are not written: rest the pointer on a line or dot", JUNCTION))
     if any(segment.kind == "bridge" for segment in drawing.segments):
         lines.append(("dashed: bridge that may be added", BRIDGE))
     if drawing.removed:
@@ -127,3 +144,8 @@ def _legend(drawing: Drawing) -> list[tuple[str, str]]:
         counted = ", ".join(f"{count} × {what}" for what, count in sorted(kinds.items()))
         lines.append((f"× changed by clean-up: {counted}", REMOVED))
     return lines
+
+
+def _is_crowded(drawing: Drawing) -> bool:
+    """Whether numbers at their usual size would cover the drawing."""
+    return len(drawing.segments) + len(drawing.junctions) > MANY_LABELS

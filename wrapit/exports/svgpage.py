@@ -8,11 +8,13 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray
-from wrapit.geometry.labels import Label
+from wrapit.geometry.labels import DIGIT_WIDTH, PADDING, Label
 from wrapit.geometry.pieces import piece
 from wrapit.geometry.svgframe import SvgFrame, number
 
 FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
+# From here on labels would cover the drawing at their usual size.
+MANY_LABELS = 200
 # Where along a curve its number stands, the best place first.
 ANCHOR_SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 
@@ -65,16 +67,31 @@ def label_texts(frame: SvgFrame, labels: Sequence[Label], size_mm: float, colour
     return leaders + [text(frame, label.centre, label.text, size_mm, fill=colour) for label in labels]
 
 
-def anchors(curve: BezierChain) -> FloatArray:
-    """Points (m, 2) on the curve where its number may stand, the best first."""
+def anchors(curve: BezierChain, *, quickly: bool) -> FloatArray:
+    """Points (m, 2) on the curve where its number may stand, the best first; quickly means about there."""
+    if quickly:
+        points = curve.sampled(curve.length / 32)
+        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+        at = np.array(ANCHOR_SHARES) * along[-1]
+        return np.column_stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)])
     return np.array([piece(curve, 0.0, share * curve.length).end for share in ANCHOR_SHARES])
 
 
-def label_size_mm(curves: Sequence[BezierChain], low: FloatArray, high: FloatArray) -> float:
-    """Text height for these curves: as tall as the page allows, smaller where curves are short."""
+def label_size_mm(curves: Sequence[BezierChain], low: FloatArray, high: FloatArray, labels: int) -> float:
+    """Text height for these curves: as tall as the page allows, smaller where curves are short.
+
+    Where there are very many labels it is smaller still, to be read enlarged on a screen: together they
+    take a quarter of the page or less.
+    """
     longest_side = float(np.max(high - low))
     typical = float(np.median([curve.length for curve in curves]))
-    return float(np.clip(min(longest_side / 22, typical / 3), 1.0, 3.0))
+    size_mm = float(np.clip(min(longest_side / 22, typical / 3), 1.0, 3.0))
+    if labels <= MANY_LABELS:
+        return size_mm
+    digits = len(str(labels))
+    each = (digits * DIGIT_WIDTH + 2 * PADDING) * (1 + 2 * PADDING)
+    page_mm2 = float(np.prod(np.maximum(high - low, longest_side / 10)))
+    return min(size_mm, float(np.sqrt(page_mm2 / (4 * each * labels))))
 
 
 def bounds_with_labels(

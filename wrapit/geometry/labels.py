@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -17,6 +18,7 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 DIGIT_WIDTH = 0.62
 PADDING = 0.18
 _ANGLES = np.arange(16) * (np.pi / 8) + np.pi / 4
+_MOST_RINGS = 200
 _DIRECTIONS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 
 
@@ -36,47 +38,89 @@ def place_labels(
     ink: FloatArray,
     text_mm: float,
     taken: Sequence[Label] = (),
+    rings: int | None = None,
 ) -> tuple[Label, ...]:
     """A label for each (text, anchors (m, 2), best first), in that order.
 
     `ink` (n, 2) are points to keep clear of; `taken` are labels placed before. Labels never overlap one
-    another: candidates lie on growing rings around each anchor, and the rings grow until one is free.
+    another: candidates lie on growing rings around each anchor, and the rings grow until one is free. With
+    `rings`, a label that finds no place within so many is left out.
     """
-    placed = list(taken)
+    field = _Field(ink, text_mm)
+    for earlier in taken:
+        field.add(earlier)
     for text, anchors in wanted:
         half = np.array([max(len(text), 1) * DIGIT_WIDTH / 2 + PADDING, 0.5 + PADDING]) * text_mm
-        placed.append(_place(text, anchors, half, ink, placed))
-    return tuple(placed[len(taken) :])
+        label = _place(text, anchors, half, field, text_mm, rings or _MOST_RINGS)
+        if label is not None:
+            field.add(label)
+        elif rings is None:
+            raise ValueError(f"no free place within {_MOST_RINGS} rings for label {text!r}")
+    return tuple(field.labels[len(taken) :])
+
+
+class _Field:
+    """Ink and placed labels, by place: what is far away is never looked at."""
+
+    def __init__(self, ink: FloatArray, text_mm: float) -> None:
+        from scipy.spatial import cKDTree
+
+        self.labels: list[Label] = []
+        self.ink = ink
+        self._tree = cKDTree(ink) if len(ink) else None
+        self._cell_mm = 4 * text_mm
+        self._cells: dict[tuple[int, int], list[int]] = {}
+        self._boxes: list[tuple[float, float, float, float]] = []
+
+    def add(self, label: Label) -> None:
+        """A label that others keep clear of."""
+        (x, y), (half_x, half_y) = label.centre, label.half_size
+        for cell in self._between(x - half_x, y - half_y, x + half_x, y + half_y):
+            self._cells.setdefault(cell, []).append(len(self._boxes))
+        self._boxes.append((x, y, half_x, half_y))
+        self.labels.append(label)
+
+    def boxes_near(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Boxes (n, 4) of the labels in the cells of a rectangle: centres and half sizes."""
+        found = {each for cell in self._between(*low, *high) for each in self._cells.get(cell, ())}
+        return np.array([self._boxes[each] for each in sorted(found)]).reshape(-1, 4)
+
+    def ink_in(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Points (n, 2) of the ink in a square that holds this rectangle."""
+        if self._tree is None:
+            return self.ink
+        middle, reach = (low + high) / 2, float((high - low).max()) / 2
+        return self.ink[self._tree.query_ball_point(middle, reach * (1 + 1e-9), p=np.inf)]
+
+    def _between(self, left: float, low: float, right: float, high: float) -> Iterator[tuple[int, int]]:
+        columns = range(int(left // self._cell_mm), int(right // self._cell_mm) + 1)
+        rows = range(int(low // self._cell_mm), int(high // self._cell_mm) + 1)
+        return itertools.product(columns, rows)
 
 
 def _place(
-    text: str,
-    anchors: FloatArray,
-    half: FloatArray,
-    ink: FloatArray,
-    placed: Sequence[Label],
-) -> Label:
-    text_mm = float(half[1]) / (0.5 + PADDING)
-    boxes = np.array([[*label.centre, *label.half_size] for label in placed]).reshape(-1, 4)
+    text: str, anchors: FloatArray, half: FloatArray, field: _Field, text_mm: float, rings: int
+) -> Label | None:
     fallback: tuple[int, FloatArray, FloatArray, int] | None = None
-    for ring in range(200):
-        for anchor in anchors:
-            # The support of the box in each direction keeps its nearest side at one distance.
-            reach = np.abs(_DIRECTIONS) @ half + text_mm * (0.15 + 0.45 * ring)
-            centres = anchor + _DIRECTIONS * reach[:, None]
-            free = ~_overlaps(centres, half, boxes)
-            if not free.any():
-                continue
-            around = np.abs(ink - anchor).max(axis=1) < float(reach.max() + 2 * half.max())
-            hits = np.where(free, _hits(centres, half, ink[around]), len(ink) + 1)
-            best = int(np.argmin(hits))
-            if hits[best] == 0:
-                return _label(text, centres[best], half, anchor, ring)
-            if fallback is None or hits[best] < fallback[0]:
-                fallback = int(hits[best]), centres[best], anchor, ring
-        if fallback is not None and ring >= 8:
+    for ring in range(rings):
+        # The support of the box in each direction keeps its nearest side at one distance.
+        reach = np.abs(_DIRECTIONS) @ half + text_mm * (0.15 + 0.45 * ring)
+        centres = (anchors[:, None] + (_DIRECTIONS * reach[:, None])[None]).reshape(-1, 2)
+        low, high = centres.min(axis=0) - half, centres.max(axis=0) + half
+        free = np.flatnonzero(~_overlaps(centres, half, field.boxes_near(low, high)))
+        if not len(free):
+            continue
+        hits = _hits(centres[free], half, field.ink_in(low, high))
+        clear = free[hits == 0]
+        best = int(clear[0] if len(clear) else free[np.argmin(hits)])
+        fewest = int(hits.min())
+        if fewest == 0:
+            return _label(text, centres[best], half, anchors[best // len(_DIRECTIONS)], ring)
+        if fallback is None or fewest < fallback[0]:
+            fallback = fewest, centres[best], anchors[best // len(_DIRECTIONS)], ring
+        if ring >= 8:
             return _label(text, fallback[1], half, fallback[2], fallback[3])
-    raise ValueError(f"no free place within 200 rings for label {text!r}")
+    return None
 
 
 def _label(text: str, centre: FloatArray, half: FloatArray, anchor: FloatArray, ring: int) -> Label:
