@@ -13,7 +13,7 @@ from wrapit.decomposition.stage import decompose
 from wrapit.drawing.stage import trace
 from wrapit.exports.preview_png import write_preview
 from wrapit.exports.view_png import write_view
-from wrapit.jig.stage import build_jig
+from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.stage import draw_wires
 
 CONFIGS = Path(__file__).parent.parent / "configs"

@@ -125,8 +125,8 @@ def own_pictures() -> list[tuple[str, Path, dict[str, Any], dict[str, Any]]]:
     """Our own configs' bitmaps, with the SVG they were rendered from as truth."""
     from PIL import Image
 
-    from wrapit.drawing.planar import planar
-    from wrapit.drawing.svg_strokes import read_strokes
+    from wrapit.drawing.svg.planar import planar
+    from wrapit.drawing.svg.strokes import read_strokes
 
     found = []
     for picture in sorted((Path(__file__).parents[2] / "configs").glob("*.png")):
@@ -160,10 +160,10 @@ def plain_beziers(path: Path) -> int:
     """Béziers of a plain Schneider fit through the smoothed skeleton, at the same tolerance."""
     from scipy.ndimage import gaussian_filter1d
 
-    from wrapit.drawing.picture import read_picture
-    from wrapit.drawing.skeleton import network
+    from wrapit.drawing.bitmap.picture import read_picture
+    from wrapit.drawing.bitmap.skeleton import network
     from wrapit.geometry import unit
-    from wrapit.geometry.fitting import Stroke, fit_all
+    from wrapit.geometry.fitting.fit import Stroke, fit_all
 
     skeleton = read_picture(path, TracingConfig()).skeleton
     net = network(skeleton.pixels, skeleton.pairs)

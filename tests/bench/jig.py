@@ -17,12 +17,12 @@ import shapely
 from tests.jig.metal import arcs, scribble, spiral, wires_of
 from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
-from wrapit.geometry.outlines import Outliner
-from wrapit.jig.blanks import blank
-from wrapit.jig.course import Course
-from wrapit.jig.plan import plan_jig
-from wrapit.jig.stage import build_jig
+from wrapit.geometry.outlines.exact import Outliner
+from wrapit.jig.channel import Course
+from wrapit.jig.printed.plan import plan_jig
+from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import total_support
+from wrapit.jig.wall_ground import blank
 from wrapit.kernel.checks import volume_mm3
 from wrapit.kernel.edges import region_face
 from wrapit.wires.model import Wire
@@ -87,7 +87,7 @@ def _slots(course: Course) -> list[Any]:
 
 
 def _fitted_face(polygon: Any) -> Any:
-    from wrapit.jig.solids import _fitted
+    from wrapit.jig.printed.solid import _fitted
 
     largest = max(shapely.get_parts(polygon), key=lambda part: part.area)
     return region_face(_fitted(shapely.Polygon(largest.exterior).simplify(0.005)))

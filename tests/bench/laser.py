@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
 from wrapit.config import JigConfig, PlateConfig, load_config
 from wrapit.exports.plate_files import write_plate_files
-from wrapit.jig.laser_stage import build_laser_jig
+from wrapit.jig.sheet.stage import build_laser_jig
 from wrapit.wires.model import Wire
 
 CONFIGS = Path(__file__).parents[2] / "configs"

@@ -18,9 +18,9 @@ import numpy as np
 from tests.bench.composing import UNITS_PER_STROKE, Composed, compose, write_ink
 from wrapit.config.decomposition import AnnealingConfig, DecompositionConfig
 from wrapit.config.tracing import TracingConfig
-from wrapit.decomposition.annealing import anneal
+from wrapit.decomposition.annealing.stage import anneal
 from wrapit.decomposition.energy import energy_of
-from wrapit.decomposition.exact import solve_exactly
+from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import graph_of
 from wrapit.decomposition.model import NO_MATE, Weights
 from wrapit.decomposition.problem import Problem

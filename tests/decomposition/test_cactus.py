@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from tests.bench.graphs import cactus, closed_curves, flowers, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
-from wrapit.decomposition.blocks import as_cactus
-from wrapit.decomposition.cactus import solved_by_blocks
-from wrapit.decomposition.cases import certified
+from wrapit.decomposition.exact.branch_and_bound import certified
+from wrapit.decomposition.exact.cactus.blocks import as_cactus
+from wrapit.decomposition.exact.cactus.stage import solved_by_blocks
+from wrapit.decomposition.exact.integer_programme import solve_by_cuts
 from wrapit.decomposition.graph import Graph, pieces
-from wrapit.decomposition.milp import solve_by_cuts
 from wrapit.decomposition.model import NO_MATE, Weights
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.rules import Rules

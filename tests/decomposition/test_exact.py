@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from tests.bench.graphs import FAMILIES, all_even, random_multigraph
 from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition
-from wrapit.decomposition.cases import certified
 from wrapit.decomposition.energy import energy_of
-from wrapit.decomposition.exact import solve_exactly
+from wrapit.decomposition.exact.branch_and_bound import certified
+from wrapit.decomposition.exact.highs import silent_stdout
+from wrapit.decomposition.exact.junction_matching import LocalCosts
+from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
-from wrapit.decomposition.integer import silent_stdout
-from wrapit.decomposition.local import LocalCosts
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
 

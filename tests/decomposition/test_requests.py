@@ -17,13 +17,13 @@ from wrapit.config.decomposition import DecompositionConfig
 from wrapit.config.loading import load_config
 from wrapit.config.root import Config
 from wrapit.decomposition.bridges import with_bridges
+from wrapit.decomposition.doubling import doubled_back
 from wrapit.decomposition.energy import weak_trails
-from wrapit.decomposition.exact import solve_exactly
-from wrapit.decomposition.files import decomposition_json
+from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import graph_of
+from wrapit.decomposition.json_file import decomposition_json
 from wrapit.decomposition.model import Solution, Weights
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.refinement import doubled_back
 from wrapit.decomposition.stage import alternatives, decompose
 from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of

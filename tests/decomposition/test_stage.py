@@ -12,8 +12,8 @@ import pytest
 from tests.decomposition.drawings import cross, drawing_of, theta
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.decomposition.energy import energy_of
-from wrapit.decomposition.files import decomposition_json
 from wrapit.decomposition.graph import graph_of
+from wrapit.decomposition.json_file import decomposition_json
 from wrapit.decomposition.stage import decompose
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DecompositionError

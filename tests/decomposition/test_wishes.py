@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from tests.bench.graphs import all_even, random_multigraph
 from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition, wires_of
 from wrapit.config.decomposition import AnnealingConfig
-from wrapit.decomposition.annealing import anneal
-from wrapit.decomposition.exact import solve_exactly
+from wrapit.decomposition.annealing.stage import anneal
+from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem

@@ -16,7 +16,7 @@ from scipy.ndimage import gaussian_filter
 
 from tests.drawing.generated import Points, render
 from wrapit.config import TracingConfig
-from wrapit.drawing.files import drawing_json
+from wrapit.drawing.json_file import drawing_json
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
 from wrapit.errors import Finding

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.files import drawing_json, read_drawing
+from wrapit.drawing.json_file import drawing_json, read_drawing
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
 from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wrapit.geometry import unit
-from wrapit.geometry.fitting import Stroke, fit, fit_all
+from wrapit.geometry.fitting.fit import Stroke, fit, fit_all
 
 
 def wave(turns: float, noise: float = 0.0, count: int = 300) -> Stroke:

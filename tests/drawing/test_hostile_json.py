@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.drawing.mutations import damaged
-from wrapit.drawing.files import drawing_json, read_drawing
+from wrapit.drawing.json_file import drawing_json, read_drawing
 from wrapit.errors import DrawingError
 
 PATIENCE_S = 15.0

@@ -16,11 +16,11 @@ from shapely import LineString, Point, get_parts, polygonize
 
 from wrapit.config import TracingConfig
 from wrapit.drawing import meetings
-from wrapit.drawing.coincident import without_coincident
-from wrapit.drawing.neighbours import Parallels
-from wrapit.drawing.planar import Curve, Planar, planar
 from wrapit.drawing.stage import trace
-from wrapit.drawing.tidying import rejoined
+from wrapit.drawing.svg.duplicates import without_coincident
+from wrapit.drawing.svg.neighbours import Parallels
+from wrapit.drawing.svg.planar import Curve, Planar, planar
+from wrapit.drawing.svg.tidying import rejoined
 from wrapit.errors import DrawingError
 from wrapit.geometry import BezierChain, FloatArray
 

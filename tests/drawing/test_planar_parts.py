@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.drawing.test_planar import FEW, SEEDS, wavy
-from wrapit.drawing.cutting import stretches
-from wrapit.drawing.places import Places
+from wrapit.drawing.svg.cutting import stretches
+from wrapit.drawing.svg.shared_places import Places
 from wrapit.geometry import FloatArray
 from wrapit.geometry.bezier import evaluate, split
 

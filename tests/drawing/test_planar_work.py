@@ -9,10 +9,10 @@ import pytest
 
 from tests.drawing.test_planar import through
 from wrapit.drawing import coincident, places
-from wrapit.drawing.coincident import without_coincident
-from wrapit.drawing.meetings import crossings
-from wrapit.drawing.planar import Curve
-from wrapit.drawing.steps import SAMPLES, steps_of
+from wrapit.drawing.svg.duplicates import without_coincident
+from wrapit.drawing.svg.intersections import crossings
+from wrapit.drawing.svg.planar import Curve
+from wrapit.drawing.svg.steps import SAMPLES, steps_of
 
 
 def short_strokes(count: int) -> list[Curve]:

@@ -20,14 +20,14 @@ from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.exports.plate_files import GAP_MM, sheet_name, write_plate_files
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.moves import rounded_rectangle
+from wrapit.geometry.outlines.moves import rounded_rectangle
 from wrapit.geometry.pieces import chain_of
-from wrapit.jig.laser_engraving import wire_numbers
-from wrapit.jig.laser_inlays import polygon_of
-from wrapit.jig.laser_model import LaserJig, LaserPart, Placed
-from wrapit.jig.laser_nesting import nest
-from wrapit.jig.laser_stack import copies_needed
-from wrapit.jig.laser_stage import build_laser_jig, kept_apart
+from wrapit.jig.sheet.engraving import wire_numbers
+from wrapit.jig.sheet.inlays import polygon_of
+from wrapit.jig.sheet.model import LaserJig, LaserPart, Placed
+from wrapit.jig.sheet.nesting import nest
+from wrapit.jig.sheet.parts import copies_needed
+from wrapit.jig.sheet.stage import build_laser_jig, kept_apart
 from wrapit.wires.model import Wire
 
 JIG = JigConfig()

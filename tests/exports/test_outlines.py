@@ -20,11 +20,18 @@ from wrapit.config import PlateConfig
 from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.plate_svg import plate_svg
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.geometry.biarcs import as_arcs, as_lines
-from wrapit.geometry.moves import circle, moved, oriented, reversed_loop, rounded_rectangle, turns_left
-from wrapit.geometry.offsets import offset_region
-from wrapit.jig.laser_checks import length_mm
-from wrapit.jig.laser_inlays import moved_outline
+from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
+from wrapit.geometry.outlines.moves import (
+    circle,
+    moved,
+    oriented,
+    reversed_loop,
+    rounded_rectangle,
+    turns_left,
+)
+from wrapit.geometry.outlines.offsets import offset_region
+from wrapit.jig.sheet.checks import length_mm
+from wrapit.jig.sheet.inlays import moved_outline
 
 sizes = st.floats(1, 50)
 

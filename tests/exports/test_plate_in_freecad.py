@@ -17,7 +17,7 @@ from wrapit.config import PlateConfig
 from wrapit.config.plate import CurveStyle, ProfileName
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Loop
-from wrapit.jig.laser_checks import length_mm
+from wrapit.jig.sheet.checks import length_mm
 
 pytestmark = pytest.mark.client
 SCRIPT = Path(__file__).with_name("freecad_dxf.py")

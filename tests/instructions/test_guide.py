@@ -12,9 +12,9 @@ import pytest
 from tests.exports.pieces_for_tests import arc_chain, drawing_of, eye, solution_of
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.geometry import BezierChain, straight
+from wrapit.instructions.binding_order import assembly_order, binding_length_mm, find_ties
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
-from wrapit.instructions.ties import assembly_order, binding_length_mm, find_ties
 from wrapit.instructions.wording import joint_phrase, listed, millimetres, shape_phrase, thickness
 from wrapit.jig.model import JigSet
 from wrapit.units import awg_diameter_mm
@@ -250,7 +250,7 @@ def test_the_laser_cut_jig_has_its_page() -> None:
     from types import SimpleNamespace
 
     from wrapit.config import JigConfig, PlateConfig
-    from wrapit.jig.laser_stage import build_laser_jig
+    from wrapit.jig.sheet.stage import build_laser_jig
 
     solution, wires = eye()
     jigs = SimpleNamespace(jigs=(SimpleNamespace(name="jig", wires=("wire-01", "wire-02")),))
@@ -283,7 +283,7 @@ def test_the_map_of_each_stack_shows_its_own_wires() -> None:
 
     from wrapit.config import JigConfig, PlateConfig
     from wrapit.instructions.laser_page import plan_laser_page
-    from wrapit.jig.laser_stage import build_laser_jig
+    from wrapit.jig.sheet.stage import build_laser_jig
 
     _, wires = eye()
     apart = tuple(SimpleNamespace(name=f"jig-{wire.name}", wires=(wire.name,)) for wire in wires)

@@ -9,13 +9,13 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, BSpline, FloatArray, from_chain, straight
-from wrapit.geometry.loops import Arc
-from wrapit.geometry.parallels import as_chain
+from wrapit.geometry.outlines.loops import Arc
+from wrapit.geometry.outlines.parallels import as_chain
 from wrapit.geometry.pieces import chain_of
 from wrapit.jig.model import Jig
-from wrapit.jig.stage import build_jig
-from wrapit.wires.lifts import lay_wires, layers_of
+from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.model import Wire
+from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.turns import find_turns
 
 AWG18_MM = 1.0237

@@ -15,13 +15,13 @@ from tests.jig.metal import AWG18_MM, arcs, circle, config, line, only, scribble
 from wrapit.config import JigConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Loop
-from wrapit.geometry.polygons import polygon_of, region_area_mm2
-from wrapit.jig.course import Course
-from wrapit.jig.faces import plain_finding, wall_face
-from wrapit.jig.plan import plan_jig
-from wrapit.jig.split import fewest_groups
-from wrapit.jig.stage import build_jig
+from wrapit.geometry.outlines.polygons import polygon_of, region_area_mm2
+from wrapit.jig.channel import Course
+from wrapit.jig.grouping import fewest_groups
+from wrapit.jig.printed.plan import plan_jig
+from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import stretch_support, support_by_wire, total_support
+from wrapit.jig.wall_face import plain_finding, wall_face
 
 REACH_MM = AWG18_MM / 2 + 0.2
 
@@ -216,7 +216,7 @@ def test_wall_tops_are_set_back() -> None:
 
 
 def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPatch) -> None:
-    from wrapit.geometry.outlines import Outliner
+    from wrapit.geometry.outlines.exact import Outliner
 
     wires = wires_of([circle(11)])
     plan, _ = plan_jig(wires, JigConfig())

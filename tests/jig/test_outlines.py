@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from tests.jig.metal import circle, scribble
 from wrapit.geometry import Arc, Line
 from wrapit.geometry.curveset import CurveSet
-from wrapit.geometry.outlines import Outliner
-from wrapit.geometry.parallels import Side, as_chain
-from wrapit.geometry.polygons import (
+from wrapit.geometry.outlines.exact import Outliner
+from wrapit.geometry.outlines.parallels import Side, as_chain
+from wrapit.geometry.outlines.polygons import (
     fitted_edges,
     loop_area_mm2,
     region_area_mm2,

@@ -10,10 +10,10 @@ import shapely
 from tests.jig.metal import arcs, circle, config, line, only, wires_of
 from wrapit.config import GuideConfig, JigConfig, WireConfig
 from wrapit.errors import JigError
-from wrapit.geometry.polygons import polygon_of
+from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.instructions.plan import plan_guide
-from wrapit.jig.seats import mirrored_seats
-from wrapit.jig.stage import build_jig
+from wrapit.jig.printed.seats import mirrored_seats
+from wrapit.jig.printed.stage import build_jig
 
 
 def seat(x: float, y: float, diameter: float, **more: str) -> dict[str, object]:

@@ -10,8 +10,8 @@ import shapely
 
 from tests.jig.metal import arcs, circle, config, wires_of
 from wrapit.errors import JigError
-from wrapit.geometry.polygons import polygon_of
-from wrapit.jig.stage import build_jig
+from wrapit.geometry.outlines.polygons import polygon_of
+from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.springback import overbend
 
 LOSS = 3.395 * 200 / (117e3 * 1.0)  # half-hard copper of 1 mm

@@ -9,10 +9,10 @@ import shapely
 
 from tests.jig.metal import AWG18_MM, arcs, circle, config, line, only, wires_of
 from wrapit.config import JigConfig
-from wrapit.geometry.polygons import polygon_of
-from wrapit.jig.course import Course
-from wrapit.jig.plan import plan_jig
-from wrapit.jig.proof import support_findings
+from wrapit.geometry.outlines.polygons import polygon_of
+from wrapit.jig.channel import Course
+from wrapit.jig.findings import support_findings
+from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.support import (
     min_wall_to_wire_mm,
     stretch_support,

@@ -15,7 +15,7 @@ from tests.jig.metal import arcs, circle, line, wires_of
 from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
 from wrapit.jig.model import Jig
-from wrapit.jig.stage import build_jig
+from wrapit.jig.printed.stage import build_jig
 from wrapit.kernel.checks import volume_mm3
 from wrapit.kernel.files import FilePart, write_3mf, write_step, write_stl
 from wrapit.kernel.steptext import canonical_step

@@ -16,11 +16,11 @@ from wrapit.geometry import straight
 from wrapit.geometry.pieces import chain_of, piece
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
-from wrapit.jig.stage import build_jig
-from wrapit.wires.eye import EyeSize, best_eye
+from wrapit.jig.printed.stage import build_jig
+from wrapit.wires.bail_loop import EyeSize, best_eye
+from wrapit.wires.jump_ring import jump_ring
 from wrapit.wires.mirror import mirrored, mirrored_ring
 from wrapit.wires.model import JumpRing, Wire
-from wrapit.wires.ring import jump_ring
 from wrapit.wires.stage import draw_wires
 
 GAP_MM = 1.05  # the wire is 1 mm thick; its loop stops 0.05 mm from touching

@@ -15,7 +15,7 @@ from wrapit.decomposition.model import Solution
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength, cut
 from wrapit.wires.centreline import join
-from wrapit.wires.lifts import lay_wires
+from wrapit.wires.stacking import lay_wires
 from wrapit.wires.stage import draw_wires
 from wrapit.wires.turns import find_turns
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from wrapit.decomposition.energy import weak_trails
-from wrapit.decomposition.files import wire_name
 from wrapit.decomposition.graph import Graph, fewest_possible_wires, pieces
+from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Solution
 from wrapit.errors import Finding
 

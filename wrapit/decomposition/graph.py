@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from wrapit.decomposition.sets import Sets
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
+from wrapit.geometry.disjoint_sets import Sets
 
 # Headings are whole multiples of this. Mirror images, and pairings of the same ends that cross or nest, then
 # bend by exactly the same, and no choice between them hangs on the last bit that some machine computes.

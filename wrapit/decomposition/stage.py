@@ -8,18 +8,18 @@ from dataclasses import replace
 import numpy as np
 
 from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig
-from wrapit.decomposition.annealing import anneal
+from wrapit.decomposition.annealing.stage import anneal
 from wrapit.decomposition.bridges import with_bridges
-from wrapit.decomposition.cases import certified
 from wrapit.decomposition.constraints import rules_of
+from wrapit.decomposition.doubling import doubled_back
 from wrapit.decomposition.energy import energy_of_trails
-from wrapit.decomposition.exact import solve_exactly
+from wrapit.decomposition.exact.branch_and_bound import certified
+from wrapit.decomposition.exact.by_component import best_answers, parts_of, solve_piecewise
+from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.findings import findings_of
 from wrapit.decomposition.graph import Graph, graph_of
 from wrapit.decomposition.model import Decomposition, Solution, SolverName, Weights
-from wrapit.decomposition.piecewise import best_answers, parts_of, solve_piecewise
 from wrapit.decomposition.problem import Answer, Problem
-from wrapit.decomposition.refinement import doubled_back
 from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wrapit.drawing.bitmap.strand_graph import Change
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
-from wrapit.drawing.network import Change
 from wrapit.geometry import BezierChain, FloatArray
 
 

@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 
 from wrapit.drawing.assembly import Piece
-from wrapit.drawing.network import Change, Notice
-from wrapit.drawing.places import root
+from wrapit.drawing.bitmap.strand_graph import Change, Notice
+from wrapit.drawing.svg.shared_places import root
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.bezier import split
 

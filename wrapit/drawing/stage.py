@@ -22,11 +22,11 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
     _refuse_no_file(path)
     suffix = path.suffix.lower()
     if suffix == ".json":
-        from wrapit.drawing.files import read_drawing
+        from wrapit.drawing.json_file import read_drawing
 
         return read_drawing(path, size_mm), ()
     if suffix == ".svg":
-        from wrapit.drawing.svg import trace_svg
+        from wrapit.drawing.svg.stage import trace_svg
 
         return trace_svg(path, tracing, size_mm)
     if suffix not in BITMAPS:
@@ -37,7 +37,7 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
         )
     if size_mm is None:
         raise ConfigError("a bitmap has no size of its own", "size", "add `size: 40 mm` to the config")
-    from wrapit.drawing.bitmap import trace_bitmap
+    from wrapit.drawing.bitmap.stage import trace_bitmap
 
     return trace_bitmap(path, tracing, size_mm)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from wrapit.config.plate import ProfileName
-from wrapit.jig.laser_model import LaserLayer
+from wrapit.jig.sheet.model import LaserLayer
 
 # The order in which a laser has to work: nothing is engraved or cut on a piece that already fell out.
 ORDER: Final[tuple[LaserLayer, ...]] = ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")

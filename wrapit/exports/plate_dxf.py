@@ -13,8 +13,8 @@ from wrapit.errors import ExportError
 from wrapit.exports.contour_edges import as_bulges, as_chain, is_circle
 from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
 from wrapit.geometry import Arc, BezierChain, Edge
-from wrapit.geometry.biarcs import as_arcs, as_lines
-from wrapit.jig.laser_model import Contour
+from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
+from wrapit.jig.sheet.model import Contour
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace

@@ -8,7 +8,7 @@ from wrapit.config import PlateConfig
 from wrapit.errors import ExportError
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.exports.plate_svg import plate_svg
-from wrapit.jig.laser_model import Contour, LaserJig, LaserSheet
+from wrapit.jig.sheet.model import Contour, LaserJig, LaserSheet
 
 # Between sheets that are drawn side by side.
 GAP_MM = 20.0

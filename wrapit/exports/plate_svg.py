@@ -10,7 +10,7 @@ from wrapit.config.plate import ProfileName
 from wrapit.exports.laser_profiles import ORDER, PROFILES
 from wrapit.geometry import Loop
 from wrapit.geometry.svgframe import SvgFrame, number
-from wrapit.jig.laser_model import Contour
+from wrapit.jig.sheet.model import Contour
 
 HAIRLINE_MM = 0.05
 

@@ -3,7 +3,7 @@
 from wrapit.geometry.arrays import FloatArray, IntArray, locked, unit
 from wrapit.geometry.bezier import BezierChain, joined, straight
 from wrapit.geometry.bspline import BSpline, from_chain
-from wrapit.geometry.loops import Arc, Edge, Line, Loop, Region
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region
 
 __all__ = [
     "Arc",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain
-from wrapit.geometry.loops import Arc, Edge, Line, Loop, Point, Region
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Point, Region
 
 
 @dataclass(frozen=True)

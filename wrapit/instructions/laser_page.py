@@ -12,7 +12,7 @@ import numpy as np
 from wrapit.geometry import Region
 from wrapit.geometry.pieces import chain_of
 from wrapit.geometry.svgframe import SvgFrame, number
-from wrapit.jig.laser_model import LaserJig, LaserPart
+from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:

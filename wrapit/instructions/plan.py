@@ -11,8 +11,8 @@ from wrapit.config import GuideConfig, WireConfig
 from wrapit.decomposition.model import Solution, Traversal
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.instructions.binding_order import assembly_order, find_ties
 from wrapit.instructions.model import Guide, Material, Step, Tie, WireSheet
-from wrapit.instructions.ties import assembly_order, find_ties
 from wrapit.instructions.wording import bend_at, joint_phrase, listed, millimetres, shape_phrase, thickness
 from wrapit.jig.model import JigSet
 from wrapit.materials import METALS

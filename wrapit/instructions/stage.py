@@ -10,8 +10,8 @@ from wrapit.instructions.laser_page import plan_laser_page
 from wrapit.instructions.pictures import Pictures
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.wording import listed, millimetres
-from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
+from wrapit.jig.sheet.model import LaserJig
 from wrapit.wires.model import JumpRing, Wire
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import Arc, FloatArray, Line, Loop
-from wrapit.geometry.outlines import Outliner
-from wrapit.jig.course import Course
+from wrapit.geometry.outlines.exact import Outliner
+from wrapit.jig.channel import Course
 from wrapit.jig.model import Hole
 from wrapit.jig.tails import FOOT_MM, tail_slots
 

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from wrapit.config import JigConfig
-from wrapit.jig.blanks import TOUCH_MM, face_probes
-from wrapit.jig.course import Course
+from wrapit.jig.channel import Course
 from wrapit.jig.model import Pin
+from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 from wrapit.wires.model import Turn
 
 SMALLEST_PIN_MM = 0.6

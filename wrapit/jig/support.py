@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
-from wrapit.geometry.polygons import polygon_of
-from wrapit.jig.blanks import face_probes
-from wrapit.jig.course import SIDES, Course
+from wrapit.geometry.outlines.polygons import polygon_of
+from wrapit.jig.channel import SIDES, Course
 from wrapit.jig.model import TurnSupport
+from wrapit.jig.wall_ground import face_probes
 
 PROBE_STEP_MM = 0.1
 PROBE_DEPTH_MM = 0.01

@@ -10,8 +10,8 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray, unit
-from wrapit.jig.blanks import TOUCH_MM, face_probes
-from wrapit.jig.course import Course
+from wrapit.jig.channel import Course
+from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 
 FOOT_MM = 0.1  # between a hole's rim and a wall's foot
 INSIDE_MM = 0.15  # a wire's end is at least so far inside its hole

@@ -11,7 +11,7 @@ import numpy as np
 
 from wrapit.errors import KernelError
 from wrapit.geometry import Arc, BezierChain, BSpline, Edge, FloatArray, Line, Loop, Region, from_chain
-from wrapit.geometry.polygons import loop_area_mm2
+from wrapit.geometry.outlines.polygons import loop_area_mm2
 
 # OCCT (and every program on it) integrates areas and volumes along an edge with few points however many
 # spans it has: long splines made a jig's volume wrong by up to 1.4e-3. Over edges of one span it is exact.

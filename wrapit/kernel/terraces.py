@@ -12,7 +12,7 @@ from typing import Any
 
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.polygons import loop_area_mm2, region_area_mm2
+from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
 from wrapit.kernel.checks import is_valid, volume_mm3
 from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import guarded

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from wrapit.config import Config
 from wrapit.errors import ExportError
-from wrapit.jig.laser_coupon import PrintedCoupon, clearance_coupon, kerf_coupon
+from wrapit.jig.coupons import PrintedCoupon, clearance_coupon, kerf_coupon
 from wrapit.pipeline.worker import Worker
 
 TIMEOUT_S = 120.0

@@ -9,8 +9,8 @@ from wrapit.config import Config
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
-from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import JigSet
+from wrapit.jig.sheet.model import LaserJig
 from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
 
@@ -39,7 +39,7 @@ def write_plate(
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
     """`plate.dxf`, `plate.svg`: the laser-cut jig."""
     from wrapit.exports.plate_files import write_plate_files
-    from wrapit.jig.laser_stage import build_laser_jig
+    from wrapit.jig.sheet.stage import build_laser_jig
 
     laser, findings = build_laser_jig(wires, jigs, config.jig, config.plate)
     write_plate_files(folder, laser, config.plate)

@@ -58,7 +58,7 @@ def held_share(config: Config, drawing_path: Path) -> float:
     """The share of its turns that a piece's jig would hold; 0 where it can't be planned at all."""
     from wrapit.decomposition.stage import decompose
     from wrapit.drawing.stage import trace
-    from wrapit.jig.planning import held_by, plan_jigs
+    from wrapit.jig.printed.planning import held_by, plan_jigs
     from wrapit.wires.springback import overbend_wires
     from wrapit.wires.stage import draw_wires
 

@@ -12,12 +12,12 @@ from typing import Any
 
 from wrapit import __version__
 from wrapit.config import Config, lock_text
-from wrapit.decomposition.files import decomposition_summary
+from wrapit.decomposition.json_file import decomposition_summary
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
-from wrapit.jig.laser_model import LaserJig
 from wrapit.jig.model import Jig, JigSet, TurnSupport
+from wrapit.jig.sheet.model import LaserJig
 from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.ownership import FORMAT, Artifact
 from wrapit.wires.model import JumpRing, Wire

@@ -15,7 +15,7 @@ from wrapit.wires.model import JumpRing, Wire
 if TYPE_CHECKING:
     from wrapit.kernel.files import FilePart
 
-PRELOAD = ("wrapit.kernel.files", "wrapit.jig.stage")
+PRELOAD = ("wrapit.kernel.files", "wrapit.jig.printed.stage")
 
 
 def make_solids(
@@ -31,7 +31,7 @@ def make_solids(
     `laid` are the wires as they lie in the jig; a jump ring is in `wires{suffix}.step`.
     The result holds no kernel shapes.
     """
-    from wrapit.jig.stage import build_jig
+    from wrapit.jig.printed.stage import build_jig
 
     jigs, findings = build_jig(laid, config.jig)
     if folder is not None:

@@ -102,7 +102,7 @@ def run_stages(work: Work, folder: Path | None) -> None:
 def _trace(work: Work, folder: Path | None) -> None:
     with work.stage("drawing"):
         from wrapit.decomposition.bridges import with_bridges
-        from wrapit.drawing.files import drawing_json
+        from wrapit.drawing.json_file import drawing_json
         from wrapit.drawing.stage import trace
         from wrapit.exports.drawing_svg import drawing_svg
 
@@ -118,8 +118,8 @@ def _trace(work: Work, folder: Path | None) -> None:
 def _decompose(work: Work, folder: Path | None) -> None:
     assert work.drawing is not None
     with work.stage("decomposition"):
-        from wrapit.decomposition.files import decomposition_json
         from wrapit.decomposition.graph import fewest_possible_wires, graph_of
+        from wrapit.decomposition.json_file import decomposition_json
         from wrapit.decomposition.stage import decompose
         from wrapit.exports.decomposition_svg import decomposition_svg
         from wrapit.wires.stage import draw_wires
@@ -141,7 +141,7 @@ def _draw_wires(work: Work, folder: Path | None) -> None:
     assert work.solution is not None
     with work.stage("wires"):
         from wrapit.exports.decomposition_svg import decomposition_svg
-        from wrapit.wires.ring import jump_ring
+        from wrapit.wires.jump_ring import jump_ring
         from wrapit.wires.stage import draw_wires
 
         work.wires, findings = draw_wires(work.solution, work.config)
@@ -188,7 +188,7 @@ def _build_jig(work: Work, worker: Worker, folder: Path | None) -> None:
 
 
 def _build_mirrored_jig(work: Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
-    from wrapit.jig.seats import mirrored_seats
+    from wrapit.jig.printed.seats import mirrored_seats
     from wrapit.wires.mirror import mirrored, mirrored_ring
 
     wires, laid, ring = mirrored(work.wires), mirrored(work.laid), mirrored_ring(work.ring)

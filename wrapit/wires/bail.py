@@ -15,8 +15,8 @@ from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import joined as as_one
 from wrapit.materials import min_inner_bend_radius_mm
+from wrapit.wires.bail_loop import Eye, EyeSize, best_eye
 from wrapit.wires.centreline import Joined
-from wrapit.wires.eye import Eye, EyeSize, best_eye
 from wrapit.wires.model import Bail
 
 STEP_MM = 0.05

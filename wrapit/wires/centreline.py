@@ -12,7 +12,7 @@ import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, cut
-from wrapit.wires.blends import NO_BLEND, Blend, best_blend
+from wrapit.wires.rounding import NO_BLEND, Blend, best_blend
 
 SMOOTH_BEND_RAD = 1e-4  # smaller bends are noise: turning the handles moves the curve by less than a micron
 RELAX_RADII = 4.0  # how far beyond a tight span a wire may leave the drawing to widen it

@@ -15,8 +15,8 @@ from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.recurving import best_fit, recurved
 from wrapit.materials import METALS
-from wrapit.wires.lifts import lay_wires, layers_of
 from wrapit.wires.model import Wire
+from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.turns import find_turns
 
 STEP_MM = 0.1

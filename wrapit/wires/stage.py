@@ -12,11 +12,11 @@ from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.materials import METALS, min_inner_bend_radius_mm
 from wrapit.wires.bail import with_bail
-from wrapit.wires.bindings import find_bindings
 from wrapit.wires.centreline import FOLD_RAD, Joined, join
-from wrapit.wires.lifts import lay_wires, layers_of
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
+from wrapit.wires.stacking import lay_wires, layers_of
+from wrapit.wires.ties import find_bindings
 from wrapit.wires.turns import find_turns
 
 CURVATURE_STEP_MM = 0.02

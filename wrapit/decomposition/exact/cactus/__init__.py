@@ -1,0 +1,1 @@
+"""The proven optimum of drawings whose closed loops share no segment."""

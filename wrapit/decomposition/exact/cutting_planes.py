@@ -1,0 +1,174 @@
+"""Inequalities that an integer matching breaks: rings, weak wires that go unpaid, the user's rules."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from wrapit.decomposition.energy import contacts_of
+from wrapit.decomposition.exact.ring_bound import ring_of
+from wrapit.decomposition.graph import Graph
+from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.rules import Pair, in_use, wire_through
+from wrapit.decomposition.trails import trails_of, walk
+
+Weak = tuple[tuple[int, ...], int]
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Σ coefficient · x ≤ limit over transitions, bridges in use and weak wires.
+
+    `weak` names the variable that is subtracted: one, if the wire along these segments hangs at the
+    junction.
+    """
+
+    transitions: dict[Pair, float]
+    limit: float
+    bridges: dict[int, float] = field(default_factory=dict)
+    weak: Weak | None = None
+
+
+def ring_cuts(graph: Graph, mate: Sequence[int]) -> Iterator[Cut]:
+    """For each ring, that it isn't one; and how often all of them together have to be linked."""
+    nodes, rings = ring_of(mate)
+    for ring in range(1, rings + 1):
+        inside = {h for h, node in enumerate(nodes) if node == ring}
+        yield Cut(dict.fromkeys(_within(graph, inside), 1.0), len(inside) / 2 - 1)
+    if rings > 1:
+        yield _partition_cut(graph, nodes, rings)
+
+
+def weak_cuts(
+    problem: Problem, mate: Sequence[int], paid: set[tuple[tuple[int, ...], int, int | None]]
+) -> Iterator[Cut]:
+    """For each weak wire of a matching without rings, that it has to be paid for; `paid` says which are.
+
+    A wire along exactly these segments has one transition less than segments, and none that leads
+    out. Bridges may come into use elsewhere and tie it down.
+    """
+    graph = problem.graph
+    trails = trails_of(graph, mate)
+    for trail, contacts in zip(trails, contacts_of(graph, trails), strict=True):
+        if len(contacts) != 1:
+            continue
+        (junction,) = contacts
+        segments = tuple(sorted(t.segment for t in trail.traversals))
+        tie = _only_tie(graph, mate, segments, junction)
+        if (segments, junction, tie) in paid:
+            continue
+        paid.add((segments, junction, tie))
+        inside = {h for e in segments for h in (2 * e, 2 * e + 1)}
+        transitions = dict.fromkeys(_within(graph, inside), 1.0) | dict.fromkeys(_across(graph, inside), -1.0)
+        junctions = {graph.junction_of[h] for h in inside} - {junction}
+        bridges = {
+            h >> 1: -1.0
+            for j in sorted(junctions)
+            for h in graph.incident[j]
+            if h >> 1 in graph.bridges and h not in inside
+        }
+        limit = len(segments) - 2.0
+        if tie is not None:
+            bridges[tie] = 1.0
+            limit += 1.0
+        yield Cut(transitions, limit, bridges, (segments, junction))
+
+
+def rule_cuts(problem: Problem, mate: Sequence[int]) -> Iterator[Cut]:
+    """For each rule that a matching breaks and that no row of the programme states from the start."""
+    graph, rules = problem.graph, problem.rules
+    for e, f in rules.same:
+        wire = wire_through(mate, e)
+        if f not in wire:
+            across = _across(graph, {h for s in wire for h in (2 * s, 2 * s + 1)})
+            yield Cut(dict.fromkeys(across, -1.0), -1.0)
+    if rules.longest_mm is not None:
+        yield from _length_cuts(graph, mate, rules.longest_mm)
+
+
+def exclusion_cut(graph: Graph, mate: Sequence[int]) -> Cut:
+    """That a matching isn't this one, wherever its closed wires are left open.
+
+    With its closed wires closed, any other matching has one transition less in common with it than
+    it has itself, or some transition besides.
+    """
+    closed = {(a, b) for a, b in enumerate(mate) if a < b}
+    wires = 0
+    for h, other in enumerate(mate):
+        if other == NO_MATE:
+            far = walk(mate, h)[-1] ^ 1
+            if h < far and far in graph.bends_rad[h] and in_use(graph, mate, h >> 1):
+                closed.add((h, far))
+                wires += 1
+    transitions = {
+        (a, b): 1.0 if (a, b) in closed else -1.0
+        for a, mates in enumerate(graph.bends_rad)
+        for b in mates
+        if a < b
+    }
+    return Cut(transitions, len(closed) - wires - 1.0)
+
+
+def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterator[Cut]:
+    """Segments of a total length need so many wires; or, with bridges, just not this walk."""
+    seen: set[int] = set()
+    for e in range(graph.segments):
+        if e in seen or not in_use(graph, mate, e):
+            continue
+        wire = wire_through(mate, e)
+        seen |= wire
+        if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + 1e-9:
+            continue
+        inside = {h for f in wire for h in (2 * f, 2 * f + 1)}
+        strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.bridges))
+        needed = math.ceil(strokes / longest_mm - 1e-9)
+        if needed > 1:
+            yield Cut(
+                dict.fromkeys(_within(graph, inside), 1.0),
+                len(wire - graph.bridges) - needed,
+                dict.fromkeys(sorted(wire & graph.bridges), -1.0),
+            )
+        else:
+            walk = {(h, mate[h]): 1.0 for h in sorted(inside) if h < mate[h]}
+            yield Cut(walk, len(walk) - 1.0)
+
+
+def _partition_cut(graph: Graph, nodes: Sequence[int], rings: int) -> Cut:
+    """q rings need q links to one another or to a wire end.
+
+    At a junction with p passes of k rings, a transition that is lost links one ring; among those
+    that lead from ring to ring at most a share of (k − 1) / k links anew, since leading back makes
+    the last one. So Σ (p − all) + (p − own) · (k − 1) / k ≥ q.
+    """
+    transitions: dict[Pair, float] = {}
+    limit = -float(rings)
+    for ends in graph.incident:
+        here = [h for h in ends if nodes[h]]
+        kinds = len({nodes[h] for h in here})
+        if not kinds:
+            continue
+        share = (kinds - 1) / kinds
+        limit += len(here) / 2 * (1 + share)
+        for a, b in _within(graph, set(here)):
+            transitions[a, b] = 1.0 + (share if nodes[a] == nodes[b] else 0.0)
+    return Cut(transitions, limit)
+
+
+def _only_tie(graph: Graph, mate: Sequence[int], segments: Sequence[int], junction: int) -> int | None:
+    """The bridge that alone makes the junction a contact, if no stroke does."""
+    others = [h >> 1 for h in graph.incident[junction] if h >> 1 not in segments]
+    if any(e not in graph.bridges for e in others):
+        return None
+    return min(e for e in others if in_use(graph, mate, e))
+
+
+def _within(graph: Graph, inside: set[int]) -> list[Pair]:
+    """Transitions between two of the half-edges."""
+    return [(a, b) for a in sorted(inside) for b in graph.bends_rad[a] if a < b and b in inside]
+
+
+def _across(graph: Graph, inside: set[int]) -> list[Pair]:
+    """Transitions between one of the half-edges and one of the others."""
+    return [(min(a, b), max(a, b)) for a in sorted(inside) for b in graph.bends_rad[a] if b not in inside]

@@ -1,0 +1,205 @@
+"""The integer programme of a whole piece, with inequalities added as solutions break them.
+
+Only junctions that appear in an inequality enter the programme; all others keep their locally best
+matching, which is what the programme would choose for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from wrapit.decomposition.annealing.matching_state import descended
+from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
+from wrapit.decomposition.exact.highs import Name, Optimum, Programme
+from wrapit.decomposition.exact.junction_matching import LocalCosts
+from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
+from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.symmetry import mirrored_junctions
+
+_CLOSE = 1e-9
+_ALL_TRIPLES_DEGREE = 10
+
+
+def solve_by_cuts(
+    problem: Problem, known: Answer, budget: int, others: Sequence[Sequence[int]] = ()
+) -> Answer | None:
+    """The best matching that differs from `others`, starting from what is known; None if there is none.
+
+    `budget` limits the work, counted in columns × nodes of branch and bound over all rounds, so that
+    the answer depends on nothing but the problem. Beyond it, the best matching so far is returned
+    with the bound that was proved.
+    """
+    excluded = [exclusion_cut(problem.graph, mate) for mate in others]
+    model = _Model(problem, excluded)
+    best = known.mate if _fits(problem, known.mate, excluded) else None
+    least = problem.energy(best).total if best else float("inf")
+    bound, rounds, spent = known.lower_bound or 0.0, known.iterations, 0
+    while least - bound > _CLOSE and spent < budget:
+        rounds += 1
+        programme, base = model.programme()
+        columns = max(1, len(programme.columns))
+        first = columns // 50  # the first node takes longer the larger it is: measured, in nodes
+        optimum = programme.solve(max(1, (budget - spent) // columns - first))
+        spent += columns * (max(1, optimum.nodes) + first)
+        if not optimum.feasible:
+            return None
+        bound = max(bound, base + optimum.bound)
+        if optimum.values is None:
+            break
+        mate = model.matching(optimum)
+        for candidate in _repaired(problem, mate):
+            if not _fits(problem, candidate, excluded):
+                continue
+            energy = problem.energy(candidate).total
+            if energy < least - _CLOSE:
+                best, least = tuple(candidate), energy
+        if not model.learn(mate):
+            break
+    if best is None:
+        # Out of budget: what breaks a rule is for the caller to refuse, what repeats another is no answer.
+        return None if others else Answer(known.mate, rounds, bound)
+    return Answer(best, rounds, min(bound, least), least - bound <= _CLOSE)
+
+
+def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:
+    repaired = list(mate)
+    open_rings(problem.graph, LocalCosts(problem), repaired)
+    yield repaired
+    yield descended(problem, repaired)
+
+
+def _fits(problem: Problem, mate: Sequence[int], excluded: Sequence[Cut]) -> bool:
+    if not problem.is_allowed(mate):
+        return False
+    return all(
+        sum(cut.transitions.get((a, b), 0.0) for a, b in enumerate(mate) if a < b) <= cut.limit + 1e-9
+        for cut in excluded
+    )
+
+
+class _Model:
+    """The inequalities so far, and the junctions that they are about."""
+
+    def __init__(self, problem: Problem, excluded: Sequence[Cut]) -> None:
+        self._problem = problem
+        self._graph = problem.graph
+        self._costs = LocalCosts(problem)
+        self._cuts = list(excluded)
+        self._paid: set[tuple[tuple[int, ...], int, int | None]] = set()
+        self._active = self._ruled_junctions()
+
+    def programme(self) -> tuple[Programme, float]:
+        """The programme of the active junctions, and what all the rest costs."""
+        graph, costs, weights = self._graph, self._costs, self._problem.weights
+        programme = Programme()
+        for junction in sorted(self._active):
+            ends = graph.incident[junction]
+            for a in ends:
+                for b, cost in costs.pair[a].items():
+                    if a < b:
+                        programme.add_column((a, b), cost)
+            for row, high in self._matching_rows(ends):
+                programme.add_row(row, high=high)
+        for bridge in sorted(graph.bridges):
+            self._add_bridge(programme, bridge)
+        self._add_rules(programme)
+        for cut in self._cuts:
+            broken: dict[Name, float] = dict(cut.transitions)
+            broken |= {("bridge", bridge): coefficient for bridge, coefficient in cut.bridges.items()}
+            if cut.weak:
+                programme.add_column(("weak", *cut.weak), weights.robustness, whole=False)
+                broken["weak", *cut.weak] = -1.0
+            programme.add_row(broken, high=cut.limit)
+        strokes = graph.segments - len(graph.bridges)
+        rest = sum(costs.best(j)[0] for j in range(len(graph.incident)) if j not in self._active)
+        return programme, strokes + rest
+
+    def matching(self, optimum: Optimum) -> list[int]:
+        """The matching that a solution describes, rings and all."""
+        mate = [NO_MATE] * (2 * self._graph.segments)
+        for junction in range(len(self._graph.incident)):
+            if junction not in self._active:
+                for a, b in self._costs.best(junction)[1]:
+                    mate[a], mate[b] = b, a
+        assert optimum.values is not None
+        for name, value in optimum.values.items():
+            if isinstance(name[0], int) and value > 0.5:
+                a, b = name
+                mate[a], mate[b] = b, a
+        return mate
+
+    def learn(self, mate: Sequence[int]) -> bool:
+        """Adds the inequalities that a matching breaks; says whether there were any."""
+        cuts = [*ring_cuts(self._graph, mate), *rule_cuts(self._problem, mate)]
+        if not ring_of(mate)[1]:
+            cuts += weak_cuts(self._problem, mate, self._paid)
+        for cut in cuts:
+            self._active |= {self._graph.junction_of[a] for a, _ in cut.transitions}
+        self._cuts += cuts
+        return bool(cuts)
+
+    def _matching_rows(self, ends: Sequence[int]) -> Iterator[tuple[dict[Name, float], float]]:
+        """Each half-edge has one mate at most; of an odd set of half-edges, one stays without."""
+        pair = self._costs.pair
+        for h in ends:
+            row: dict[Name, float] = {(min(h, b), max(h, b)): 1.0 for b in pair[h]}
+            bridge = h >> 1 in self._graph.bridges
+            if bridge:
+                row["bridge", h >> 1] = -1.0
+            yield row, 0.0 if bridge else 1.0
+        odd = [three for three in combinations(ends, 3) if len(ends) <= _ALL_TRIPLES_DEGREE]
+        for some in [*odd, *([ends] if len(ends) % 2 and len(ends) > 3 else [])]:
+            yield dict.fromkeys(combinations(sorted(some), 2), 1.0), float(len(some) // 2)
+
+    def _add_bridge(self, programme: Programme, bridge: int) -> None:
+        """A bridge counts as one more wire and its own weight as soon as it joins something."""
+        weights, pair = self._problem.weights, self._costs.pair
+        programme.add_column(("bridge", bridge), 1.0 + weights.bridges)
+        row: dict[Name, float] = {
+            (min(h, b), max(h, b)): -1.0 for h in (2 * bridge, 2 * bridge + 1) for b in pair[h]
+        }
+        programme.add_row({**row, ("bridge", bridge): 1.0}, high=0.0)
+
+    def _add_rules(self, programme: Programme) -> None:
+        graph, rules, pair = self._graph, self._problem.rules, self._costs.pair
+        for group in rules.required:
+            programme.add_row(dict.fromkeys(group, 1.0), low=1.0)
+        for ends in rules.ends:
+            row: dict[Name, float] = {(a, b): 2.0 for a in ends for b in pair[a] if a < b}
+            row |= {("bridge", h >> 1): -1.0 for h in ends if h >> 1 in graph.bridges}
+            programme.add_row(row, high=sum(h >> 1 not in graph.bridges for h in ends) - 1.0)
+        for v, _ in mirrored_junctions(graph, self._problem.mirror):
+            programme.add_column(("unlike", v), self._problem.weights.symmetry, whole=False)
+            self._add_likeness(programme, v)
+        for e, f in rules.apart:
+            # A height for each segment, the same along a wire: 0 on one of the two, 1 on the other.
+            for segment in range(graph.segments):
+                programme.add_column(("height", e, f, segment), 0.0, whole=False)
+            programme.add_row({("height", e, f, e): 1.0}, high=0.0)
+            programme.add_row({("height", e, f, f): 1.0}, low=1.0)
+            for a, mates in enumerate(pair):
+                for b in mates:
+                    step = {("height", e, f, a >> 1): 1.0, ("height", e, f, b >> 1): -1.0, (a, b): 1.0}
+                    step[min(a, b), max(a, b)] = step.pop((a, b))
+                    programme.add_row(step, high=1.0)
+
+    def _add_likeness(self, programme: Programme, junction: int) -> None:
+        mirror = self._problem.mirror
+        for a in self._graph.incident[junction]:
+            for b in self._costs.pair[a]:
+                image = (min(mirror[a], mirror[b]), max(mirror[a], mirror[b]))
+                if a < b and image != (a, b):
+                    for sign in (1.0, -1.0):
+                        programme.add_row({(a, b): sign, image: -sign, ("unlike", junction): -1.0}, high=0.0)
+
+    def _ruled_junctions(self) -> set[int]:
+        graph, rules = self._graph, self._problem.rules
+        if rules.apart or self._cuts:
+            return set(range(len(graph.incident)))
+        bridged = {graph.junction_of[h] for e in graph.bridges for h in (2 * e, 2 * e + 1)}
+        ended = {graph.junction_of[ends[0]] for ends in rules.ends}
+        required = {graph.junction_of[a] for group in rules.required for a, _ in group}
+        mirrored = {j for pair in mirrored_junctions(graph, self._problem.mirror) for j in pair}
+        return mirrored | bridged | required | ended

@@ -1,0 +1,1 @@
+"""Bitmaps: from pixels to centre lines, and where these truly meet."""

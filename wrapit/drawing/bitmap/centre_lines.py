@@ -1,0 +1,217 @@
+"""Centre lines finer than a pixel: the middle between both edges of the stroke, and its width there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.geometry import FloatArray, unit
+
+# In stroke widths, unless the name says otherwise.
+_INSIDE = 0.25
+_REACH = 1.3
+_SMOOTHING = 0.35
+_CLEAN = 0.09
+_CLEAN_PX = 0.35
+# A pen's pressure may change the width by this share; it is measured within this reach.
+_DRIFT = 0.17
+_DRIFT_REACH = 3.5
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A centred strand: points (n, 2) in pixels, stroke width at each, and where it stands alone.
+
+    `clean` is false where another stroke, or an end, disturbs the width; there the centre is unknown.
+    """
+
+    points: FloatArray
+    width: FloatArray
+    clean: NDArray[np.bool_]
+    along: FloatArray
+
+    @property
+    def length(self) -> float:
+        """Length in pixels."""
+        return float(self.along[-1])
+
+    @cached_property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest x and y, (2,) each."""
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    def turned(self, first: int) -> Line:
+        """A closed line that starts (and ends) at another of its points."""
+        order = np.concatenate([np.arange(first, len(self.points) - 1), np.arange(first + 1)])
+        points = self.points[order]
+        return Line(points, self.width[order], self.clean[order], lengths(points))
+
+
+def renewed(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
+    """The lines of a network that has changed: those of strands that are new are centred now."""
+    fresh = [strand for strand in net.strands if strand not in lines]
+    kept = {strand: line for strand, line in lines.items() if strand in net.strands}
+    return kept | centre_lines(net, ink, width_px, fresh)
+
+
+def centre_lines(
+    net: Network, ink: Ink, width_px: float, strands: list[int] | None = None
+) -> dict[int, Line]:
+    """The centred line of each strand, walking from its start; closed loops lose nothing at the seam."""
+    strands = list(net.strands) if strands is None else strands
+    if not strands:
+        return {}
+    step = max(1.0, width_px / 8)
+    paths = [_resampled(net.path(strand), step) for strand in strands]
+    loops = [
+        net.strands[s].start == net.strands[s].end and net.degree(net.strands[s].start) == 2 for s in strands
+    ]
+    sigma = max(_SMOOTHING * width_px, 1.0) / step
+    # The first pass only has to come near enough for the second.
+    for fineness, inside in ((8, 0.0), (14, _INSIDE)):
+        paths = [smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
+        points = np.concatenate(paths)
+        bounds = np.cumsum([len(path) for path in paths])[:-1]
+        normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
+        left, right = edges(
+            ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness), inside=inside * width_px
+        )
+        width = left + right
+        shift = np.where(width < 1.8 * width_px, (right - left) / 2, 0.0)
+        points = points + np.nan_to_num(shift)[:, None] * normals
+        paths = np.split(points, bounds)
+    known = width[np.isfinite(width)]
+    spread = float(np.median(np.abs(known - np.median(known)))) if len(known) else 0.0
+    return {
+        strand: _line(path, width, width_px, min(spread, 0.1 * width_px))
+        for strand, path, width in zip(strands, paths, np.split(width, bounds), strict=True)
+    }
+
+
+def _line(points: FloatArray, width: FloatArray, width_px: float, spread: float) -> Line:
+    known = width[np.isfinite(width)]
+    usual = float(np.median(known)) if len(known) > 24 else width_px
+    usual = float(np.clip(usual, 0.85 * width_px, 1.15 * width_px))
+    # Another stroke only widens: thinner places are the hand's, and as good as others.
+    slack = max(_CLEAN * width_px, _CLEAN_PX, 1.5 * spread)
+    along = lengths(points)
+    near = _running_median(width, along, width_px)
+    nearby = np.clip(near, (1 - _DRIFT) * usual, (1 + _DRIFT) * usual)
+    clean = (width - nearby <= slack) & (width >= 0.6 * nearby)
+    return Line(points, width, clean, along)
+
+
+def _running_median(width: FloatArray, along: FloatArray, width_px: float) -> FloatArray:
+    """The width around each point, as a pen's pressure changes it; wide enough to overlook a crossing."""
+    from scipy.ndimage import median_filter
+
+    step = max(float(along[-1]) / (len(along) - 1), 1e-6)
+    size = 2 * round(_DRIFT_REACH * width_px / step) + 1
+    if size >= len(width):
+        return np.full(len(width), float(np.median(np.nan_to_num(width, nan=2 * width_px))))
+    return median_filter(np.nan_to_num(width, nan=2 * width_px), size, mode="reflect")
+
+
+def lengths(points: FloatArray) -> FloatArray:
+    """Length of a chain of points from its start to each of them, (n,)."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+
+
+def _resampled(path: FloatArray, step: float) -> FloatArray:
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    count = max(3, int(np.ceil(along[-1] / step)) + 1)
+    at = np.linspace(0, along[-1], count)
+    return np.column_stack([np.interp(at, along, path[:, 0]), np.interp(at, along, path[:, 1])])
+
+
+def smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:
+    """Gaussian smoothing that keeps the ends (a loop has none)."""
+    reach = int(np.ceil(3 * sigma))
+    if loop:
+        ring = path[:-1]
+        around = np.arange(-reach, len(ring) + reach) % len(ring)
+        padded = ring[around]
+    else:
+        reach = min(reach, len(path) - 1)
+        padded = np.concatenate(
+            [2 * path[0] - path[reach:0:-1], path, 2 * path[-1] - path[-2 : -reach - 2 : -1]]
+        )
+    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
+    kernel /= kernel.sum()
+    smooth = np.column_stack([np.convolve(padded[:, k], kernel, mode="valid") for k in (0, 1)])
+    return np.vstack([smooth, smooth[:1]]) if loop else smooth
+
+
+def _normals(path: FloatArray, loop: bool) -> FloatArray:
+    padded = (
+        np.vstack([path[-2:-1], path, path[1:2]])
+        if loop
+        else np.vstack([2 * path[:1] - path[1:2], path, 2 * path[-1:] - path[-2:-1]])
+    )
+    tangent = unit(padded[2:] - padded[:-2])
+    return np.column_stack([-tangent[:, 1], tangent[:, 0]])
+
+
+def edges(
+    ink: Ink,
+    points: FloatArray,
+    normals: FloatArray,
+    reach: float,
+    step: float,
+    inside: float = 0.0,
+    bridged: float = 0.0,
+) -> tuple[FloatArray, FloatArray]:
+    """Distance to the edge of the ink against and along the normal; nan where there is none in reach.
+
+    The search starts at `inside`; paper narrower than `bridged` counts as ink.
+    """
+    offsets = np.arange(inside, reach + step, step)
+    sides = [sample(ink.grey, points, normals, sign * offsets) - ink.half for sign in (-1, 1)]
+    if bridged:
+        sides = [_closed(side, int(bridged / step)) for side in sides]
+    against, along = (_first_crossing(side, step) + inside for side in sides)
+    return against, along
+
+
+def _closed(levels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """Levels where runs of paper are filled: those up to `count` long, and any at the start."""
+    from scipy.ndimage import grey_opening
+
+    opened = grey_opening(levels, size=(1, count + 1), mode="nearest")
+    return np.where(np.logical_or.accumulate(opened <= 0, axis=1), opened, -1.0).astype(np.float32)
+
+
+def _first_crossing(levels: NDArray[np.float32], step: float) -> FloatArray:
+    """How far one walks from the first column until the level rises through zero."""
+    light = levels > 0
+    at = np.argmax(light, axis=1)
+    rows = np.arange(len(levels))
+    found = (at > 0) & light[rows, at]
+    before, after = levels[rows, np.maximum(at - 1, 0)], levels[rows, at]
+    share = np.divide(-before, after - before, out=np.zeros_like(before), where=after != before)
+    return np.where(found, (np.maximum(at - 1, 0) + share) * step, np.nan)
+
+
+def sample(
+    grey: NDArray[np.uint8], points: FloatArray, directions: FloatArray, offsets: FloatArray
+) -> NDArray[np.float32]:
+    """Bilinear grey levels (n, k) at offsets from points (n, 2); outside the picture its rim continues."""
+    height, width = grey.shape
+    x, y = (
+        np.clip(points[:, k, None] + offsets * directions[:, k, None], 0, side - 1.001).astype(np.float32)
+        for k, side in ((0, width), (1, height))
+    )
+    column, row = x.astype(np.int32), y.astype(np.int32)
+    x -= column
+    y -= row
+    flat = grey.ravel()
+    at = row * width + column
+    a, b, c, d = (flat.take(at + step).astype(np.float32) for step in (0, 1, width, width + 1))
+    top = a + (b - a) * x
+    low = c + (d - c) * x
+    return top + (low - top) * y

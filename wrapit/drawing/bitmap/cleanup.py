@@ -1,0 +1,127 @@
+"""What thinning leaves behind and nobody drew: spurs, split crossings, crumbs."""
+
+from __future__ import annotations
+
+from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.geometry import FloatArray
+
+
+class Radii:
+    """Half the width of the ink around any place: the distance to its edge."""
+
+    def __init__(self, pixels: FloatArray, distance: FloatArray) -> None:
+        from scipy.spatial import cKDTree
+
+        self._tree = cKDTree(pixels)
+        self._distance = distance
+
+    def __call__(self, point: FloatArray) -> float:
+        return float(self._distance[self._tree.query(point)[1]])
+
+
+def tidy(net: Network, radius: Radii, width_px: float) -> bool:
+    """Drops small loops and spurs until none is left (a loop may sit at the tip of a spur)."""
+    changed = False
+    while True:
+        before = len(net.strands)
+        _drop_small_loops(net, width_px)
+        _prune_spurs(net, radius, width_px)
+        if len(net.strands) == before:
+            return changed
+        changed = True
+
+
+def _prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
+    """Drops side branches shorter than 1.4 times the ink's half width at their junction, shortest first."""
+    while True:
+        spurs = []
+        for strand, s in net.strands.items():
+            free = [net.degree(node) == 1 for node in (s.start, s.end)]
+            if free[0] == free[1]:
+                continue
+            node = s.end if free[0] else s.start
+            length = net.length(strand)
+            if length < 1.4 * max(radius(net.nodes[node]), width_px / 2):
+                spurs.append((length, strand, node))
+        if not spurs:
+            return
+        touched: set[int] = set()
+        for length, strand, node in sorted(spurs):
+            if node in touched or net.degree(node) < 3:
+                continue
+            touched.add(node)
+            s = net.strands[strand]
+            tip = s.start if s.end == node else s.end
+            net.note("spur", net.nodes[tip], length, "shorter than the stroke is wide")
+            net.drop_strand(strand)
+            if net.degree(node) == 2:
+                net.rejoin(node)
+        if not touched:
+            return
+        net.drop_lonely()
+
+
+def contract_short(net: Network, radius: Radii, share: float) -> None:
+    """Makes one node of two whose strand is shorter than `share` times the sum of their half widths."""
+    merged = True
+    while merged:
+        short = []
+        reach = {node: radius(point) for node, point in net.nodes.items() if net.degree(node) >= 3}
+        for strand, s in net.strands.items():
+            if s.start == s.end or s.start not in reach or s.end not in reach:
+                continue
+            limit = share * (reach[s.start] + reach[s.end])
+            if len(s.points) <= limit and (length := net.length(strand)) < limit:
+                short.append((length, strand))
+        merged, touched = False, set[int]()
+        for _, strand in sorted(short):
+            s = net.strands[strand]
+            if s.start in touched or s.end in touched:
+                continue
+            touched |= {s.start, s.end}
+            net.merge([s.start, s.end], (net.nodes[s.start] + net.nodes[s.end]) / 2, [strand])
+            merged = True
+
+
+def _drop_small_loops(net: Network, width_px: float) -> None:
+    """Drops loops around nothing: shorter than 2.2 stroke widths, from a node to itself."""
+    for strand, s in list(net.strands.items()):
+        if s.start == s.end and net.length(strand) < 2.2 * width_px:
+            if len(s.points) > width_px / 2:
+                net.note("loop", net.nodes[s.start], net.length(strand), "smaller than the stroke is wide")
+            net.drop_strand(strand)
+    net.drop_lonely()
+    net.rejoin_all()
+
+
+def components(net: Network) -> list[list[int]]:
+    """The strands of each connected piece, the longest piece first."""
+    group: dict[int, int] = {}
+    count = 0
+    for seed in net.nodes:
+        if seed in group:
+            continue
+        queue, group[seed] = [seed], count
+        for node in queue:
+            for strand, _ in net.ends_at(node):
+                s = net.strands[strand]
+                for other in (s.start, s.end):
+                    if other not in group:
+                        group[other] = count
+                        queue.append(other)
+        count += 1
+    pieces: list[list[int]] = [[] for _ in range(count)]
+    for strand, s in net.strands.items():
+        pieces[group[s.start]].append(strand)
+    return sorted(filter(None, pieces), key=lambda strands: -sum(net.length(k) for k in strands))
+
+
+def drop_crumbs(net: Network, width_px: float) -> None:
+    """Drops specks of dirt: pieces shorter than the stroke is wide."""
+    for strands in components(net)[1:]:
+        length = sum(net.length(strand) for strand in strands)
+        if length < 1.5 * width_px:
+            net.note("speck", net.path(strands[0]).mean(axis=0), length, "no longer than the stroke is wide")
+            for strand in strands:
+                net.drop_strand(strand)
+    net.drop_lonely()

@@ -1,0 +1,133 @@
+"""Tells ink from paper: background, threshold, specks; refuses pictures that are no line drawings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.image import GreyImage, count_levels
+from wrapit.errors import DrawingError
+
+# Paper that varies by more than this share of the contrast is divided by its background.
+_SHADED = 0.12
+_BLOCK_PX = 16
+# Two kinds of ink are this far apart, and each is this share of it at least.
+_TWO_INKS = 50
+_LEAST_SHARE = 0.08
+
+
+@dataclass(frozen=True, eq=False)
+class Ink:
+    """The ink of a picture: `mask` (h, w) bool; `grey` (h, w) and its histogram."""
+
+    mask: NDArray[np.bool_]
+    grey: GreyImage
+    paper: float
+    ink: float
+    shaded: bool
+    histogram: NDArray[np.int64]
+
+    @property
+    def half(self) -> float:
+        """Grey level halfway between paper and ink: the edge of a stroke."""
+        return (self.paper + self.ink) / 2
+
+
+def find_ink(grey: GreyImage, where: str) -> Ink:
+    """The ink of a grey picture with dark ink on light paper.
+
+    Raises DrawingError where there is none, or too little contrast.
+    """
+    background, shaded = _background(grey)
+    if shaded:
+        grey = np.clip(grey * (255.0 / np.maximum(background, 1.0)), 0, 255).astype(np.uint8)
+    histogram = count_levels(grey)
+    used = np.flatnonzero(histogram)
+    if used[-1] - used[0] < 32:
+        raise DrawingError(
+            "the picture is blank: no ink stands out from the paper", where, "scan it with more contrast"
+        )
+    threshold = _otsu(histogram)
+    ink, paper = _medians(histogram, threshold)
+    if paper - ink < 40:
+        raise DrawingError(
+            f"the ink hardly stands out from the paper (contrast {paper - ink:.0f} of 255)",
+            where,
+            "scan it with more contrast, or redraw it with a black pen",
+        )
+    half = (ink + paper) / 2
+    return Ink(grey < half, grey, float(paper), float(ink), shaded, histogram)
+
+
+def darker_ink(ink: Ink) -> GreyImage | None:
+    """The picture with the paler of two kinds of ink as paper; nothing where the ink is of one kind."""
+    dark_side = ink.histogram.copy()
+    dark_side[int(ink.half) :] = 0
+    if np.count_nonzero(dark_side) < 2:
+        return None
+    limit = _otsu(dark_side)
+    share = dark_side[:limit].sum() / dark_side.sum()
+    if not _LEAST_SHARE < share < 1 - _LEAST_SHARE:
+        return None
+    dark, pale = _medians(dark_side, limit)
+    if pale - dark < _TWO_INKS:
+        return None
+    levels = np.clip((np.arange(256) - dark) * (255.0 / (limit - dark)), 0, 255).astype(np.uint8)
+    return levels[ink.grey]
+
+
+def separability(ink: Ink) -> float:
+    """Otsu's measure: the share of all grey variance that the two classes explain, 0…1."""
+    histogram = ink.histogram.astype(np.float64)
+    levels = np.arange(256)
+    total = histogram.sum()
+    mean = (histogram * levels).sum() / total
+    variance = (histogram * (levels - mean) ** 2).sum() / total
+    dark = levels < ink.half
+    share = histogram[dark].sum() / total
+    if variance <= 0 or not 0 < share < 1:
+        return 0.0
+    low = (histogram * levels)[dark].sum() / histogram[dark].sum()
+    high = (histogram * levels)[~dark].sum() / histogram[~dark].sum()
+    return float(share * (1 - share) * (high - low) ** 2 / variance)
+
+
+def _otsu(histogram: NDArray[np.int64]) -> int:
+    """Level that best divides the histogram (Otsu 1979); levels below it are ink."""
+    counts = histogram.astype(np.float64)
+    weight = np.cumsum(counts)[:-1]
+    moment = np.cumsum(counts * np.arange(256))
+    rest = counts.sum() - weight
+    low = moment[:-1] / np.maximum(weight, 1)
+    high = (moment[-1] - moment[:-1]) / np.maximum(rest, 1)
+    between = weight * rest * (high - low) ** 2
+    best = np.flatnonzero(between >= between.max() * (1 - 1e-9))
+    return int(best.mean()) + 1
+
+
+def _medians(histogram: NDArray[np.int64], threshold: int) -> tuple[int, int]:
+    def median(counts: NDArray[np.int64], first: int) -> int:
+        total = np.cumsum(counts)
+        return first + int(np.searchsorted(total, total[-1] / 2))
+
+    return median(histogram[:threshold], 0), median(histogram[threshold:], threshold)
+
+
+def _background(grey: GreyImage) -> tuple[NDArray[np.float32], bool]:
+    """The paper without the ink, and whether it is uneven (shadows, a fold, a lamp)."""
+    from scipy.ndimage import gaussian_filter, maximum_filter, zoom
+
+    height, width = grey.shape
+    rows, columns = -(-height // _BLOCK_PX), -(-width // _BLOCK_PX)
+    padded = np.pad(grey, ((0, rows * _BLOCK_PX - height), (0, columns * _BLOCK_PX - width)), mode="edge")
+    # The fourth highest of sixteen pixels of each block: neither ink nor noise counts.
+    small = padded[2::4, 2::4].reshape(rows, 4, columns, 4).transpose(0, 2, 1, 3).reshape(rows, columns, 16)
+    bright = np.sort(small)[..., -4].astype(np.float32)
+    coarse = gaussian_filter(maximum_filter(bright, 5), 2.0, mode="nearest")
+    spread = float(coarse.max() - coarse.min())
+    if spread <= _SHADED * max(float(coarse.max()) - float(grey.min()), 1.0):
+        return coarse, False
+    full = zoom(coarse, _BLOCK_PX, order=1, mode="nearest", grid_mode=True)[:height, :width]
+    return full, True

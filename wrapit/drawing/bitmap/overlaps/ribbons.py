@@ -1,0 +1,288 @@
+"""Two strokes that run along each other as one broad ribbon of ink: where in it do they cross?
+
+The edges of a ribbon are those of the two strokes, so half a stroke width inside either edge runs the
+centre of one of them. Only which is which is open: they may change sides wherever the ribbon is as
+narrow as a single stroke. Each choice gives a signed distance between the strokes; it is drawn again as
+a smooth function, and the choice is kept that explains the ribbon's width best.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.arms import Arm, arm
+from wrapit.drawing.bitmap.centre_lines import Line, edges, lengths, smoothed
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.ribbon_axis import LONGEST_FLAT, Course, course_of, even, longest_run
+from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.geometry import FloatArray, IntArray, unit
+from wrapit.geometry.polynomials import angle
+
+# In stroke widths.
+_REACH = 1.7
+_AXIS = 0.5
+_SLOPE = 0.4
+_NARROW = 0.35
+_APART = 0.8
+_FLAT = 0.1
+_MISFIT = 0.06
+_KNOT = 3.0
+_ROUND = 0.25
+# The best choice has to be better than the next by this factor.
+_BETTER = 0.75
+_MOST_WAISTS = 6
+_WIDEST = 1.6
+_ALONE = 0.6
+_TOUCH = 0.15
+_ALIKE = 1.4
+_ONWARD_RAD = math.radians(60)
+_BRIDGED = 0.35
+_BEYOND = 2.0
+_BEYOND_APART = 1.7
+# Where two strokes join, the ribbon is nearly as broad as both.
+_END = 1.5
+_OPEN = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Ribbon:
+    """Two strokes that share ink: their centres on its left and right side (n, 2), and where they swap.
+
+    `heads` and `tails` are the arms at its ends, the left one first; `strands` and `inner` are the
+    strands and the nodes between that make way for the two strokes.
+    """
+
+    strands: tuple[int, ...]
+    inner: tuple[int, ...]
+    ends: tuple[int, int]
+    heads: tuple[Arm, Arm]
+    tails: tuple[Arm, Arm]
+    left: FloatArray
+    right: FloatArray
+    swaps: tuple[int, ...]
+    clean: NDArray[np.bool_]
+    width_px: float
+    misfit: float
+
+
+def find_ribbons(
+    net: Network, lines: dict[int, Line], strands: list[int], ink: Ink, width_px: float
+) -> list[Ribbon]:
+    """Ribbons that start from some of the strands and in which two strokes can be told apart."""
+    found, seen = [], set[int]()
+    for strand in strands:
+        if strand in seen or strand not in net.strands:
+            continue
+        course = course_of(net, lines, strand, width_px)
+        if course is None:
+            continue
+        seen |= set(course.strands)
+        ribbon = _explained(net, lines, course, ink, width_px)
+        if ribbon is not None:
+            found.append(ribbon)
+    return found
+
+
+def _explained(
+    net: Network, lines: dict[int, Line], course: Course, ink: Ink, width_px: float
+) -> Ribbon | None:
+    heads = _sides(net, lines, course.ends[0], course, course.points, width_px)
+    tails = _sides(net, lines, course.ends[1], course, course.points[::-1], width_px)
+    if heads is None or tails is None:
+        return None
+    # Seen from the other end, left is right.
+    tails = tails[1], tails[0]
+    widths = _widths(lines, [*heads, *tails], width_px)
+    known_widths = np.concatenate(widths)
+    usual = float(np.median(known_widths)) if len(known_widths) >= 6 else width_px
+    before, after = (_between(pair_, usual) for pair_ in (heads, tails))
+    axis = even([before[::-1], course.points, after], usual)
+    along = lengths(axis)
+    step = along[-1] / (len(axis) - 1)
+    core = slice(
+        int(lengths(np.vstack([before[::-1], course.points[:1]]))[-1] / step),
+        len(axis) - int(lengths(np.vstack([course.points[-1:], after]))[-1] / step),
+    )
+    sides = _measured(axis, ink, usual, step)
+    if sides is None:
+        return None
+    left, right, known, gap = sides
+    found = _swaps(gap / usual, known, step / usual)
+    if found is None:
+        return None
+    touching = gap.min() > _TOUCH * usual and _may_touch(widths, [*heads, *tails], course)
+    if not found[0] and not touching:
+        return None
+    swaps = [int(np.clip(at, core.start + 1, core.stop - 2)) - core.start for at in found[0]]
+    if len(set(swaps)) < len(found[0]):
+        return None
+    clean = known[core].copy()
+    for swap in swaps:
+        clean &= np.abs(np.arange(len(clean)) - swap) * step > _ROUND * usual
+    return Ribbon(
+        course.strands, course.inner, course.ends, heads, tails,
+        left[core], right[core],
+        tuple(swaps), clean, usual, found[1],
+    )  # fmt: skip
+
+
+def _measured(
+    axis: FloatArray, ink: Ink, width_px: float, step: float
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], FloatArray] | None:
+    """Centres of the left and the right stroke beside the axis, where they are known, and their distance."""
+    index = np.arange(len(axis))
+    # The first pass only finds the middle.
+    for _ in range(2):
+        axis = smoothed(axis, _AXIS * width_px / step, False)
+        tangent = unit(np.gradient(axis, axis=0))
+        normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
+        right, left = edges(ink, axis, normal, _REACH * width_px, width_px / 14, bridged=_BRIDGED * width_px)
+        known = np.isfinite(left) & np.isfinite(right)
+        if known.mean() < 0.8:
+            return None
+        left, right = (np.interp(index, index[known], side[known]) for side in (left, right))
+        middle = axis
+        axis = axis + (left - right)[:, None] / 2 * normal
+    sigma = _SLOPE * width_px / step
+    left, right = (side - width_px / 2 * _secant(side, step, sigma) for side in (left, right))
+    gap = np.maximum(left + right, 0.0)
+    return middle + left[:, None] * normal, middle - right[:, None] * normal, known, gap
+
+
+def _between(arms: tuple[Arm, Arm], width_px: float) -> FloatArray:
+    """The way on between two arms beyond their fork, as far as both still touch it."""
+    first, second = (each.near(_BEYOND * width_px)[1] for each in arms)
+    count = min(len(first), len(second))
+    near = np.linalg.norm(first[:count] - second[:count], axis=1) < _BEYOND_APART * width_px
+    count = count if near.all() else int(np.argmin(near))
+    return (first[:count] + second[:count]) / 2
+
+
+def _sides(
+    net: Network, lines: dict[int, Line], node: int, course: Course, walked: FloatArray, width_px: float
+) -> tuple[Arm, Arm] | None:
+    """The left and the right one of two other arms at a node, for somebody who comes from there."""
+    arms = [
+        arm(lines[other], other, end, width_px)
+        for other, end in net.ends_at(node)
+        if other not in course.strands
+    ]
+    if len(arms) != 2:
+        return None
+    reach = min(len(walked) - 1, 8)
+    ahead = unit(walked[reach] - walked[0])
+    side = np.array([-ahead[1], ahead[0]])
+    across = (arms[0].points[0] - arms[1].points[0]) @ side
+    if abs(across) < 0.3 * width_px:
+        return None
+    return (arms[0], arms[1]) if across > 0 else (arms[1], arms[0])
+
+
+def _widths(lines: dict[int, Line], arms: list[Arm], width_px: float) -> list[FloatArray]:
+    """The widths of the strokes just outside the ribbon, where they are known."""
+    widths = []
+    for each in arms:
+        line = lines[each.strand]
+        away = line.along if each.end == 0 else line.length - line.along
+        near = line.clean & (away < 8 * width_px) & np.isfinite(line.width)
+        widths.append(line.width[near])
+    return widths
+
+
+def _may_touch(widths: list[FloatArray], arms: list[Arm], course: Course) -> bool:
+    """Whether a ribbon may be two strokes side by side, not one broad stroke between forks of others."""
+    if min(map(len, widths)) < 6:
+        return False
+    each = [float(np.median(width)) for width in widths]
+    ways = [course.points[0] - course.points[-1]] * 2 + [course.points[-1] - course.points[0]] * 2
+    straight = all(angle(arm.at(0.0)[1], way) < _ONWARD_RAD for arm, way in zip(arms, ways, strict=True))
+    return max(each) < _ALIKE * min(each) and straight
+
+
+def _secant(side: FloatArray, step: float, sigma: float) -> FloatArray:
+    """How much longer a cut along the ribbon's normal through a half stroke is than one straight across."""
+    from scipy.ndimage import gaussian_filter1d
+
+    slope = gaussian_filter1d(side, max(sigma, 0.5), order=1, mode="nearest") / step
+    return np.sqrt(1 + slope * slope)
+
+
+def _swaps(gap: FloatArray, known: NDArray[np.bool_], step: float) -> tuple[list[int], float] | None:
+    """The points where two strokes change sides, from their distance along the ribbon (all in widths)."""
+    reach = max(3, int(_END / step))
+    if min(gap[:reach].max(), gap[-reach:].max()) < _OPEN or longest_run(gap < _FLAT) * step > LONGEST_FLAT:
+        return None
+    waists = _waists(gap, step)
+    known = known & (gap < _WIDEST)
+    if not waists:
+        return _best_choice(gap, np.flatnonzero(known), [], step)
+    swaps: list[int] = []
+    worst = 0.0
+    for group, low, high in _sections(gap, waists):
+        if len(group) > _MOST_WAISTS:
+            return None
+        found = _best_choice(gap, np.flatnonzero(known[low:high]) + low, group, step)
+        if found is None:
+            return None
+        swaps += found[0]
+        worst = max(worst, found[1])
+    return swaps, worst
+
+
+def _sections(gap: FloatArray, waists: list[int]) -> list[tuple[list[int], int, int]]:
+    """Waists that have to be judged together, and the stretch around them."""
+    groups: list[list[int]] = []
+    for at in waists:
+        if groups and gap[groups[-1][-1] : at].max() < _ALONE:
+            groups[-1].append(at)
+        else:
+            groups.append([at])
+    tops = [one[-1] + int(np.argmax(gap[one[-1] : other[0]])) for one, other in itertools.pairwise(groups)]
+    bounds = [0, *tops, len(gap)]
+    return [(group, bounds[k], bounds[k + 1]) for k, group in enumerate(groups)]
+
+
+def _best_choice(
+    gap: FloatArray, index: IntArray, waists: list[int], step: float
+) -> tuple[list[int], float] | None:
+    """The waists at which the strokes cross, and the misfit; nothing where two choices fit alike."""
+    if len(index) * step < 1.0:
+        return None
+    choices = [
+        list(chosen) for count in range(len(waists) + 1) for chosen in itertools.combinations(waists, count)
+    ]
+    signs = np.array([(-1.0) ** np.searchsorted(chosen, index, side="right") for chosen in choices])
+    misfits = _misfits(signs * gap[index], np.asarray(index * step, dtype=np.float64))
+    order = np.argsort(misfits, kind="stable")
+    best = int(order[0])
+    if misfits[best] > _MISFIT or (len(order) > 1 and misfits[best] > _BETTER * misfits[order[1]]):
+        return None
+    return choices[best], float(misfits[best])
+
+
+def _misfits(signed: FloatArray, along: FloatArray) -> FloatArray:
+    """How far each row is from a smooth function of the length, in the mean."""
+    reach = max(float(np.ptp(along)), 1e-9)
+    degree = min(int(np.clip(3 + reach / _KNOT, 3, 9)), len(along) - 2)
+    basis = np.polynomial.legendre.legvander(2 * (along - along[0]) / reach - 1, degree)
+    q, _ = np.linalg.qr(basis)
+    rest = signed - signed @ q @ q.T
+    return np.sqrt((rest * rest).mean(axis=1))
+
+
+def _waists(gap: FloatArray, step: float) -> list[int]:
+    """Where the ribbon is narrowest, and hardly wider than one stroke."""
+    from scipy.ndimage import gaussian_filter1d
+
+    even = gaussian_filter1d(gap, max(0.25 / step, 0.5), mode="nearest")
+    low = np.flatnonzero((even[1:-1] <= even[:-2]) & (even[1:-1] < even[2:]) & (even[1:-1] < _NARROW)) + 1
+    kept: list[int] = []
+    for at in sorted(low.tolist(), key=lambda k: even[k]):
+        if all(abs(at - other) * step > _APART for other in kept):
+            kept.append(at)
+    return sorted(kept)

@@ -1,0 +1,44 @@
+"""Crossings that thinning tore apart: two forks with a shared stretch between them, put together again.
+
+Where two strokes cross at an acute angle, their ink is one stroke for up to eleven widths.
+"""
+
+from __future__ import annotations
+
+from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.separate import unzip_rest, unzip_ribbons
+from wrapit.drawing.bitmap.overlaps.short import Explanation, explain, worth_explaining
+from wrapit.drawing.bitmap.strand_graph import Network
+
+
+def join_crossings(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
+    """Makes crossings of forks between which two strokes cross, and parts strokes that only touch."""
+    unzip_ribbons(net, lines, ink, width_px)
+    found = []
+    for strand, s in net.strands.items():
+        if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
+            continue
+        if worth_explaining(lines[strand], width_px):
+            explanation = explain(net, lines, strand, width_px)
+            if explanation is not None:
+                found.append(explanation)
+    taken: set[int] = set()
+    for explanation in sorted(found, key=lambda e: (e.cost, e.strand)):
+        strand = explanation.strand
+        arms = {arm.strand for pair in explanation.pairs for arm in pair}
+        if strand not in net.strands or not arms <= net.strands.keys():
+            continue
+        s = net.strands[strand]
+        if s.start in taken or s.end in taken:
+            continue
+        taken |= {s.start, s.end}
+        _cross(net, lines, explanation)
+    unzip_rest(net, lines, ink, width_px)
+
+
+def _cross(net: Network, lines: dict[int, Line], explanation: Explanation) -> None:
+    s = net.strands[explanation.strand]
+    del lines[explanation.strand]
+    node = net.merge([s.start, s.end], explanation.at, [explanation.strand])
+    net.through[node] = tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in explanation.pairs)

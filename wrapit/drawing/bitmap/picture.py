@@ -1,0 +1,129 @@
+"""A bitmap ready for tracing: its ink and skeleton at a scale where strokes are a dozen pixels wide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from wrapit.config import TracingConfig
+from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
+from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
+from wrapit.drawing.bitmap.paper import without_table
+from wrapit.drawing.bitmap.refusals import is_ruled, refuse_crowd
+from wrapit.drawing.bitmap.skeleton import Skeleton, thin_within
+from wrapit.errors import DrawingError
+from wrapit.geometry import FloatArray
+
+# Strokes thinner than this are enlarged, thicker ones than that reduced, to about the width between.
+_THIN_PX = 4.5
+_THICK_PX = 28.0
+_GOOD_PX = 10.0
+_MOST_PIXELS = 60_000_000
+_OUTLINE_PX = 8.0
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Ink and skeleton in working pixels; `factor` source pixels make one of them."""
+
+    ink: Ink
+    skeleton: Skeleton
+    factor: float
+    light_on_dark: bool
+    on_table: bool
+
+    def source(self, points: FloatArray) -> FloatArray:
+        """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""
+        return points * self.factor + (self.factor - 1) / 2
+
+
+def read_picture(path: Path, tracing: TracingConfig) -> Picture:
+    """The picture in a bitmap file.
+
+    Raises DrawingError where it can't be read, has no ink, or is noise.
+    """
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    return replace(_picture(grey, path, tracing), light_on_dark=light_on_dark)
+
+
+def read_on_table(path: Path, tracing: TracingConfig) -> Picture | None:
+    """The picture without the dark ground around its paper, or nothing where there is none.
+
+    Raises DrawingError as `read_picture`.
+    """
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    paper = without_table(255 - grey if light_on_dark else grey)
+    return None if paper is None else replace(_picture(paper, path, tracing), on_table=True)
+
+
+def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
+    """The picture without the paler lines that rule the paper, or nothing where there are no such.
+
+    Raises DrawingError as `read_picture`.
+    """
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    found = find_ink(grey, str(path))
+    darker = darker_ink(found) if is_ruled(found.mask) else None
+    return None if darker is None else replace(_picture(darker, path, tracing), light_on_dark=light_on_dark)
+
+
+def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
+    found, factor = find_ink(grey, str(path)), 1.0
+    times = _reduction(found)
+    if times > 1:
+        grey, factor = _reduced(found.grey, times), float(times)
+        found = replace(find_ink(grey, str(path)), shaded=found.shaded)
+    ink = _inked(found, tracing)
+    skeleton = _skeleton(ink, path)
+    if skeleton.width_px < _THIN_PX:
+        times = int(np.ceil(_GOOD_PX / max(skeleton.width_px, 1.0)))
+        times = min(times, int(np.sqrt(_MOST_PIXELS / grey.size)))
+        if times > 1:
+            ink = _inked(find_ink(_enlarged(grey, times), str(path)), tracing)
+            skeleton, factor = _skeleton(ink, path), factor / times
+    return Picture(ink, skeleton, factor, light_on_dark=False, on_table=False)
+
+
+def _skeleton(ink: Ink, path: Path) -> Skeleton:
+    if not ink.mask.any():
+        raise DrawingError("the picture holds no lines", str(path), "draw at least one line")
+    skeleton = thin_within(ink.mask)
+    refuse_crowd(ink, skeleton, str(path))
+    return skeleton
+
+
+def _reduction(ink: Ink) -> int:
+    """How many pixels may become one: thick strokes carry no more detail than thin ones."""
+    mask = ink.mask
+    steps = np.count_nonzero(mask[1:] != mask[:-1]) + np.count_nonzero(mask[:, 1:] != mask[:, :-1])
+    width_px = 2 * np.count_nonzero(mask) / max(steps * np.pi / 4, 1.0)
+    times = int(width_px / (_THICK_PX / 2))
+    return times if width_px >= _THICK_PX and min(mask.shape) >= 64 * times else 1
+
+
+def _reduced(grey: GreyImage, times: int) -> GreyImage:
+    height, width = (side // times for side in grey.shape)
+    blocks = grey[: height * times, : width * times].reshape(height, times, width, times)
+    return (blocks.mean(axis=(1, 3), dtype=np.float32) + 0.5).astype(np.uint8)
+
+
+def _enlarged(grey: GreyImage, times: int) -> GreyImage:
+    from PIL import Image
+
+    height, width = grey.shape
+    return np.asarray(Image.fromarray(grey).resize((width * times, height * times), Image.Resampling.BICUBIC))
+
+
+def _inked(ink: Ink, tracing: TracingConfig) -> Ink:
+    """The ink itself, or on request the outline of what it fills, as a line of its own."""
+    if tracing.filled == "refuse":
+        return ink
+    from scipy.ndimage import distance_transform_edt, gaussian_filter
+
+    soft = gaussian_filter(ink.mask.astype(np.float32), 1.0) > 0.5
+    apart = np.where(soft, distance_transform_edt(soft) - 0.5, distance_transform_edt(~soft) - 0.5)
+    level = np.clip(apart - _OUTLINE_PX / 2 + 0.5, 0, 1)
+    grey = (255 * level + 0.5).astype(np.uint8)
+    return Ink(grey < 128, grey, 255.0, 0.0, ink.shaded, count_levels(grey))

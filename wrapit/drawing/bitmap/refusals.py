@@ -1,0 +1,136 @@
+"""Refuses pictures that are no line drawings, and says what they are instead."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.cleanup import components
+from wrapit.drawing.bitmap.ink import Ink, separability
+from wrapit.drawing.bitmap.skeleton import Skeleton
+from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.errors import DrawingError
+
+# Limits between line drawings and the rest, measured on both; a drawing stays well clear of each.
+_MIDTONES = 0.12
+_SEPARABLE = 0.88
+_BRANCHES = 0.10
+_UNEVEN = 0.35
+_THICK_SHARE = 0.12
+_FAT_AREA = 0.25
+_FAT_WIDTH = 3.0
+_INK_SHARE = 0.6
+_LONGEST = 3.0
+_PIECES = 40
+_LOOSE = 15
+_MAIN_SHARE = 0.2
+_STRIPS = 8
+_RULED_SHARE = 0.6
+_RULED_LINES = 5
+
+
+def refuse_crowd(ink: Ink, skeleton: Skeleton, where: str) -> None:
+    """Refuses noise before a graph is made of its hundreds of thousands of branches.
+
+    Raises DrawingError.
+    """
+    degree = np.bincount(skeleton.pairs.ravel(), minlength=len(skeleton.pixels))
+    branches = int((degree >= 3).sum()) / 2
+    per_width = branches * skeleton.width_px / len(skeleton.pixels)
+    if branches > 5000 and per_width > _BRANCHES:
+        raise _no_line_drawing(ink, where)
+
+
+def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str) -> None:
+    """Raises DrawingError for photos, noise, filled shapes, dots and pages of text."""
+    low, middle, high, ninety = np.percentile(skeleton.distance, [25, 50, 75, 90])
+    uneven = (high - low) / middle
+    length = 1.1 * len(skeleton.pixels)
+    branches = sum(net.degree(node) >= 3 for node in net.nodes) * skeleton.width_px / length
+    if (
+        midtones(ink) > _MIDTONES
+        and separability(ink) < _SEPARABLE
+        and (branches > _BRANCHES or uneven > _UNEVEN)
+    ):
+        raise _no_line_drawing(ink, where)
+    if skeleton.width_px < 2.2 and branches > 0.12:
+        raise _no_line_drawing(ink, where)
+    lengths = sorted((net.length(strand) for strand in net.strands), reverse=True)
+    longest = lengths[0] if lengths else 0.0
+    spread = float(np.ptp(skeleton.pixels, axis=0).max()) + skeleton.width_px
+    if skeleton.width_px > _THICK_SHARE * spread and len(lengths) < _PIECES:
+        raise _filled(where, f"the ink is {skeleton.width_px:.0f} px thick and {spread:.0f} px long")
+    if longest < _LONGEST * skeleton.width_px:
+        raise DrawingError(
+            "the picture holds only dots and short strokes, no lines", where, "connect them with a pen"
+        )
+    fat = fat_share(ink, skeleton)
+    if (ninety > _FAT_WIDTH * middle or fat > _FAT_AREA) and is_ruled(ink.mask):
+        raise DrawingError(
+            "the paper is ruled or squared, in lines as dark as the drawing",
+            where,
+            "draw on plain paper, or with a pen much darker than the ruling",
+        )
+    if ninety > _FAT_WIDTH * middle or fat > _FAT_AREA:
+        raise _filled(where, f"{100 * fat:.0f} % of the ink is much thicker than the lines")
+    if ink.mask.mean() > _INK_SHARE:
+        raise DrawingError(
+            f"ink covers {100 * ink.mask.mean():.0f} % of the picture", where, "draw lines on empty paper"
+        )
+
+
+def refuse_loose_strokes(net: Network, where: str) -> None:
+    """Raises DrawingError where no piece of the picture is more than a small part of it: text, hatching."""
+    pieces = components(net)
+    lengths = [sum(net.length(strand) for strand in strands) for strands in pieces]
+    if len(pieces) > _LOOSE and lengths[0] < _MAIN_SHARE * sum(lengths):
+        raise DrawingError(
+            f"the picture falls into {len(pieces)} pieces that don't touch (text or hatching?)",
+            where,
+            "draw one connected figure",
+        )
+
+
+def is_ruled(mask: NDArray[np.bool_]) -> bool:
+    """Whether at least five lines run straight across the whole picture, which may lie a little askew."""
+    for picture in (mask, mask.T):
+        strips = np.array_split(picture[:, ::4], _STRIPS, axis=1)
+        full = np.array([strip.mean(axis=1) > _RULED_SHARE for strip in strips])
+        lines = (np.diff(full.astype(np.int8), axis=1) > 0).sum(axis=1)
+        if lines.min() >= _RULED_LINES:
+            return True
+    return False
+
+
+def midtones(ink: Ink) -> float:
+    """Share of the pixels that are neither ink nor paper, 0…1."""
+    contrast = ink.paper - ink.ink
+    low, high = int(ink.ink + 0.25 * contrast), int(ink.paper - 0.25 * contrast)
+    return float(ink.histogram[low : high + 1].sum() / ink.histogram.sum())
+
+
+def fat_share(ink: Ink, skeleton: Skeleton) -> float:
+    """Share of the ink that lines of the usual width don't account for, 0…1."""
+    usual = float(np.median(skeleton.distance))
+    if float(skeleton.distance.max()) < (_FAT_WIDTH + 0.5) * usual:
+        return 0.0
+    thin = skeleton.distance < _FAT_WIDTH * usual
+    covered = 1.1 * float((2 * skeleton.distance[thin] - 1).sum())
+    return max(0.0, 1 - covered / float(ink.mask.sum()))
+
+
+def _no_line_drawing(ink: Ink, where: str) -> DrawingError:
+    return DrawingError(
+        f"this looks like a photo or noise, not like a line drawing "
+        f"({100 * midtones(ink):.0f} % of it is neither ink nor paper)",
+        where,
+        "trace its lines by hand on white paper first",
+    )
+
+
+def _filled(where: str, detail: str) -> DrawingError:
+    return DrawingError(
+        f"the drawing has filled shapes ({detail})",
+        where,
+        "draw their outlines only, or set tracing.filled to outline",
+    )

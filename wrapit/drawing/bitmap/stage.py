@@ -1,0 +1,251 @@
+"""Traces a bitmap: ink, skeleton, clean-up, junctions, curves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from wrapit.config import TracingConfig
+from wrapit.drawing.assembly import Piece, Placement, assemble, placement
+from wrapit.drawing.bitmap.arms import Arm, Ending, arms_at, kinked, pair, place
+from wrapit.drawing.bitmap.centre_lines import Line, centre_lines, renewed
+from wrapit.drawing.bitmap.cleanup import (
+    Radii,
+    contract_short,
+    drop_crumbs,
+    tidy,
+)
+from wrapit.drawing.bitmap.corners import open_tips, split_corners
+from wrapit.drawing.bitmap.ends import place_end
+from wrapit.drawing.bitmap.frames import drop_frames
+from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.stage import join_crossings
+from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_on_table, read_picture
+from wrapit.drawing.bitmap.pinholes import without_pinholes
+from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
+from wrapit.drawing.bitmap.skeleton import network, thin_within
+from wrapit.drawing.bitmap.strand_graph import Change, Network, Notice
+from wrapit.drawing.components import Connected, connect
+from wrapit.drawing.model import Drawing
+from wrapit.errors import DrawingError, Finding
+from wrapit.geometry import BezierChain, unit
+from wrapit.geometry.fitting.fit import Stroke, fit_all
+
+
+def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Drawing, tuple[Finding, ...]]:
+    """The drawing in a bitmap, its longest side `size_mm`, and what the maker should know about it.
+
+    Raises DrawingError where the picture can't be read or is no line drawing.
+    """
+    try:
+        return _read_and_traced(path, tracing, size_mm)
+    except DrawingError as refused:
+        found = _traced_on_table(path, tracing, size_mm)
+        if found is None:
+            raise refused from None
+        return found
+
+
+def _traced_on_table(
+    path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]] | None:
+    """The drawing in a photo that shows dark ground around the paper; nothing where it is no such."""
+    try:
+        picture = read_on_table(path, tracing)
+        return None if picture is None else _traced(picture, path, tracing, size_mm)
+    except DrawingError:
+        # The first reason tells the maker more.
+        return None
+
+
+def _read_and_traced(
+    path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    picture = read_picture(path, tracing)
+    if not is_ruled(picture.ink.mask):
+        return _traced(picture, path, tracing, size_mm)
+    darker = read_on_ruled_paper(path, tracing)
+    drawing, findings = _traced(darker or picture, path, tracing, size_mm)
+    return drawing, (_about_ruling(darker is not None), *findings)
+
+
+def _about_ruling(left_out: bool) -> Finding:
+    if left_out:
+        return Finding(
+            "warning",
+            "ruled-paper",
+            "drawing",
+            "only the darkest lines were traced; paler ones that rule the paper are left out",
+            "draw on plain paper if lines are missing",
+        )
+    return Finding(
+        "warning",
+        "ruled-paper",
+        "drawing",
+        "straight lines run across the whole picture and were traced as part of the drawing",
+        "draw on plain paper, or with a pen much darker than the ruling, if they are not meant",
+    )
+
+
+def _traced(
+    picture: Picture, path: Path, tracing: TracingConfig, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    ink, skeleton = picture.ink, picture.skeleton
+    width_px = skeleton.width_px
+    net = network(skeleton.pixels, skeleton.pairs)
+    filled = without_pinholes(net, ink.mask, width_px)
+    if filled is not None:
+        skeleton = thin_within(filled)
+        net = network(skeleton.pixels, skeleton.pairs)
+    radius = Radii(skeleton.pixels, skeleton.distance)
+    net.rejoin_all()
+    tidy(net, radius, width_px)
+    refuse_other_pictures(ink, skeleton, net, str(path))
+    contract_short(net, radius, 0.35)
+    tidy(net, radius, width_px)
+    drop_crumbs(net, width_px)
+    drop_frames(net, width_px)
+    refuse_loose_strokes(net, str(path))
+    lines = centre_lines(net, ink, width_px)
+    open_tips(net, lines, width_px)
+    join_crossings(net, lines, ink, width_px)
+    contract_short(net, radius, 1.0)
+    if tidy(net, radius, width_px):
+        lines = renewed(net, lines, ink, width_px)
+    close_gaps(net, lines, ink, width_px)
+    split_corners(net, lines, width_px, tracing.corner_angle)
+    size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
+    drop_short(net, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
+    pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
+    connected = connect(net.nodes, pieces, tracing.components, 0.25 * size_px)
+    net.changes += connected.changes
+    net.notices += connected.notices
+    return _drawing(net, connected, picture, size_mm)
+
+
+def _drawing(
+    net: Network, connected: Connected, picture: Picture, size_mm: float
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    pieces = [
+        Piece(piece.start, piece.end, BezierChain(picture.source(piece.curve.points)), piece.kind)
+        for piece in connected.pieces
+    ]
+    places = {node: picture.source(point) for node, point in connected.places.items()}
+    where = placement([piece.curve for piece in pieces], size_mm, flip=True)
+    changes = [
+        Change(
+            change.what,
+            (x, y),
+            change.length_px * picture.factor,
+            change.reason,
+        )
+        for change in net.changes
+        for x, y in [picture.source(np.array(change.at_px)).tolist()]
+    ]
+    drawing = assemble(
+        places,
+        pieces,
+        where,
+        width=picture.skeleton.width_px * picture.factor,
+        changes=changes,
+        pixel_frame=True,
+    )
+    findings = [*_about(picture), *(_finding(notice, picture, where) for notice in net.notices)]
+    return drawing, tuple(findings)
+
+
+def _about(picture: Picture) -> list[Finding]:
+    findings = []
+    width_px = picture.skeleton.width_px * picture.factor
+    if picture.light_on_dark:
+        findings.append(Finding("note", "light-on-dark", "drawing", "light lines on dark ground were traced"))
+    if picture.on_table:
+        findings.append(
+            Finding("note", "dark-table", "drawing", "the dark ground around the paper is left out")
+        )
+    if picture.ink.shaded:
+        findings.append(
+            Finding("note", "uneven-paper", "drawing", "the paper is unevenly lit; its shade was divided out")
+        )
+    if width_px < 3:
+        findings.append(
+            Finding(
+                "warning",
+                "coarse-picture",
+                "drawing",
+                f"the lines are only {width_px:.1f} px wide, so junctions may be off by part of a pixel",
+                "scan at a higher resolution",
+            )
+        )
+    return findings
+
+
+def _finding(notice: Notice, picture: Picture, where: Placement) -> Finding:
+    px = picture.source(np.array(notice.at_px))
+    mm = where.points(px)
+    place = f"at ({px[0]:.0f}, {px[1]:.0f}) px, ({mm[0]:.1f}, {mm[1]:.1f}) mm"
+    return Finding(notice.level, notice.code, place, notice.message, notice.remedy)
+
+
+def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float) -> list[Piece]:
+    endings: dict[tuple[int, int], Ending] = {}
+    for node in net.nodes:
+        arms = arms_at(net, lines, node, width_px)
+        if len(arms) == 1:
+            net.nodes[node], ending = place_end(arms[0], ink)
+            endings[arms[0].strand, arms[0].end] = ending
+        elif len(arms) == 2 and arms[0].strand == arms[1].strand:
+            _seam(net, lines, node, endings, width_px)
+        else:
+            net.nodes[node], found = place(arms, net.nodes[node], _pairs(net, node, arms))
+            for arm, ending in zip(arms, found, strict=True):
+                endings[arm.strand, arm.end] = ending
+    strokes = [
+        _stroke(net, strand, lines[strand], endings[strand, 0], endings[strand, 1]) for strand in net.strands
+    ]
+    chains = fit_all(strokes, tolerance * width_px, reach=width_px)
+    return [Piece(s.start, s.end, chain) for s, chain in zip(net.strands.values(), chains, strict=True)]
+
+
+def _pairs(net: Network, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
+    """Which arms of a node continue each other; at a corner, where only two meet, none do."""
+    if len(arms) == 2:
+        return []
+    index = {(arm.strand, arm.end): k for k, arm in enumerate(arms)}
+    known = net.through.get(node, ())
+    if len(arms) == 4 and known and all(end in index for ends in known for end in ends):
+        pairs = [(index[a], index[b]) for a, b in known]
+    else:
+        pairs = pair(arms)
+    return [(i, j) for i, j in pairs if not kinked(arms[i], arms[j])]
+
+
+def _seam(
+    net: Network, lines: dict[int, Line], node: int, endings: dict[tuple[int, int], Ending], width_px: float
+) -> None:
+    """A closed loop without junction starts and ends at its topmost point, in one direction."""
+    strand = net.ends_at(node)[0][0]
+    line = lines[strand]
+    top = int(np.argmin(line.points[:-1, 1]))
+    lines[strand] = line = line.turned(top)
+    reach = int(np.searchsorted(line.along, width_px))
+    tangent = unit(line.points[reach] - line.points[-1 - reach])
+    net.nodes[node] = line.points[0]
+    endings[strand, 0] = Ending(tangent, np.zeros((0, 2)), 1)
+    endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
+
+
+def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
+    s = net.strands[strand]
+    stop = len(line.points) - last.cut
+    inner = slice(first.cut, stop)
+    keep = line.clean[inner] if stop > first.cut and line.clean[inner].mean() > 0.6 else slice(None)
+    middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
+    # A point every quarter of the width tells a curve as well as one every eighth.
+    middle = middle[:: 2 if len(middle) > 32 else 1]
+    points = np.vstack(
+        [net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]]
+    )
+    return Stroke(points, first.tangent, -last.tangent)

@@ -1,0 +1,1 @@
+"""SVG: strokes as exact curves, cut where they meet."""

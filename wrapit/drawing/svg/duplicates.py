@@ -1,0 +1,230 @@
+"""Strokes drawn on top of each other, as where two shapes share an edge: one of them is enough."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.svg.cutting import moved
+from wrapit.drawing.svg.neighbours import Boxes, Course, Parallels
+from wrapit.drawing.svg.planar import Curve, stretch
+from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.bezier import evaluate
+
+# In stroke widths: how near, over what length, and how much a rest is worth keeping.
+_NEAR = 0.3
+_LEAST = 2.5
+_REST = 0.6
+_FINE = 0.25
+_PARALLEL = math.sin(math.radians(15))
+_BISECTIONS = 12
+
+
+def without_coincident(
+    curves: list[Curve], width: float
+) -> tuple[list[Curve], list[tuple[FloatArray, float]]]:
+    """The curves without stretches that lie on an earlier one; middle and length of each such stretch.
+
+    Strokes coincide where they run less than 0.3 stroke widths apart for more than 2.5.
+    """
+    laid = _Laid(curves, width)
+    kept: list[Curve] = []
+    doubles: list[tuple[FloatArray, float]] = []
+    for index, curve in enumerate(curves):
+        spans = laid.spans(index)
+        rest = [curve]
+        if spans:
+            spans = _united(spans)
+            doubles += [_middle(curve, span) for span in spans]
+            rest = _rest(curve, spans, laid)
+        laid.keep(index, rest)
+        kept += rest
+    return kept, doubles
+
+
+class _Laid:
+    """The curves looked at so far, and what is kept of each, as courses."""
+
+    def __init__(self, curves: list[Curve], width: float) -> None:
+        self.width = width
+        self._curves = curves
+        # Twice a width: a rest's ends move by less than one, and what is near counts within a third of one.
+        self._boxes = Boxes([curve.cubics for curve in curves], 2 * width)
+        self._apart = self._boxes.apart()
+        self._kept: dict[int, list[Course]] = {}
+        self._parallels = Parallels(_NEAR * width, _PARALLEL)
+        self._latest: tuple[Curve, Course] | None = None
+
+    def spans(self, index: int) -> list[tuple[float, float]]:
+        """Where a curve runs on earlier ones, as parameters."""
+        if index in self._apart:
+            return []
+        curve = self._curves[index]
+        course = self._course(curve)
+        others = self._parallels.beside(course)
+        return [span for other in others for span in _spans(curve, course, other, self.width)]
+
+    def keep(self, index: int, rest: list[Curve]) -> None:
+        """Says what is kept of a curve: all of it, parts, or nothing."""
+        if index not in self._apart:
+            self._kept[index] = [self._course(part) for part in rest]
+            for course in self._kept[index]:
+                self._parallels.add(course)
+
+    def onto(self, point: FloatArray) -> FloatArray:
+        """The nearest point on the curves kept so far, if it lies under the same ink."""
+        feet = []
+        for course in (course for k in self._boxes.around(point) for course in self._kept.get(k, [])):
+            signed, foot, _ = _offsets(point[None], course)
+            feet.append((abs(float(signed[0])), foot[0]))
+        far, foot = min(feet, key=lambda item: item[0], default=(np.inf, point))
+        return foot if far < 2 * _NEAR * self.width else point
+
+    def _course(self, curve: Curve) -> Course:
+        # Mostly the curve just looked at, which is kept whole.
+        if self._latest is None or self._latest[0] is not curve:
+            self._latest = curve, _course(curve, self.width)
+        return self._latest[1]
+
+
+def _course(curve: Curve, width: float) -> Course:
+    points, at = [], []
+    for k, cubic in enumerate(curve.cubics):
+        hull = float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum())
+        t = np.linspace(0, 1, int(np.clip(hull / (_FINE * width), 4, 400)) + 1)
+        last = k == len(curve.cubics) - 1
+        points.append(evaluate(cubic[None], t)[0][: None if last else -1])
+        at.append((k + t)[: None if last else -1])
+    chain = np.concatenate(points)
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(chain, axis=0), axis=1))])
+    return Course(chain, np.concatenate(at), along)
+
+
+def _offsets(points: FloatArray, other: Course) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Signed distance of points from a course, the feet, and the course's directions there."""
+    _, nearest = other.tree.query(points)
+    best = np.full(len(points), np.inf)
+    signed, feet = np.zeros(len(points)), np.zeros_like(points)
+    directions = np.zeros_like(points)
+    for step in (nearest - 1, nearest):
+        first = np.clip(step, 0, len(other.points) - 2)
+        a = other.points[first]
+        d = other.points[first + 1] - a
+        share = np.clip(((points - a) * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-18), 0, 1)
+        foot = a + share[:, None] * d
+        away = points - foot
+        far = np.linalg.norm(away, axis=1)
+        side = np.where(d[:, 0] * away[:, 1] - d[:, 1] * away[:, 0] < 0, -1.0, 1.0)
+        better = far < best
+        best = np.where(better, far, best)
+        signed = np.where(better, side * far, signed)
+        feet[better], directions[better] = foot[better], unit(d)[better]
+    return signed, feet, directions
+
+
+def _spans(curve: Curve, course: Course, other: Course, width: float) -> list[tuple[float, float]]:
+    """Parameters from and to which a curve runs on another; over the end of a closed one they go on."""
+    low, high = other.box[0] - width, other.box[1] + width
+    if ((course.points < low) | (course.points > high)).any(axis=1).all():
+        return []
+    signed, _, directions = _offsets(course.points, other)
+    sine = course.directions[:, 0] * directions[:, 1] - course.directions[:, 1] * directions[:, 0]
+    near = np.abs(signed) < _NEAR * width
+    found = []
+    for first, last in _runs(near, curve.closed):
+        inside = np.arange(first, last + 1) % len(near)
+        length = float(course.along[inside[-1]] - course.along[inside[0]])
+        if last >= len(near) or (length <= 0 and last > first):
+            length += float(course.along[-1])
+        # At corners the direction means nothing.
+        parallel = (np.abs(sine[inside]) < _PARALLEL).mean() > 0.7
+        crosses = _changes_sides(signed[inside], 0.5 * _NEAR * width)
+        if length < _LEAST * width or not parallel or crosses:
+            continue
+        found.append(
+            (_edge(curve, course, other, first, -1, width), _edge(curve, course, other, last, 1, width))
+        )
+    return found
+
+
+def _changes_sides(signed: FloatArray, least: float) -> bool:
+    """Whether a run leads from one side to the other: a crossing, however acute."""
+    early, late = signed[int(0.15 * len(signed))], signed[int(0.85 * len(signed))]
+    return bool(early * late < 0 and min(abs(early), abs(late)) > least)
+
+
+def _runs(near: NDArray[np.bool_], closed: bool) -> list[tuple[int, int]]:
+    """First and last index of each run of flags; runs over the seam of a closed course go on beyond it."""
+    if near.all():
+        return [(0, len(near) - 1)]
+    bounds = np.flatnonzero(np.diff(np.concatenate([[False], near, [False]]).astype(np.int8)))
+    runs = [(int(a), int(b) - 1) for a, b in zip(bounds[::2], bounds[1::2], strict=True)]
+    if closed and len(runs) > 1 and runs[0][0] == 0 and runs[-1][1] == len(near) - 1:
+        runs = [*runs[1:-1], (runs[-1][0], len(near) + runs[0][1])]
+    return runs
+
+
+def _edge(curve: Curve, course: Course, other: Course, index: int, step: int, width: float) -> float:
+    """The parameter where a run ends that still includes the point at `index`."""
+    count, turns = len(course.at), len(curve.cubics)
+    inside = float(course.at[index % count]) + turns * (index // count)
+    beyond = index + step
+    if not curve.closed and not 0 <= beyond < count:
+        return inside
+    outside = float(course.at[beyond % count]) + turns * (beyond // count)
+    for _ in range(_BISECTIONS):
+        middle = (inside + outside) / 2
+        point = _point(curve, middle)
+        if abs(float(_offsets(point[None], other)[0][0])) < _NEAR * width:
+            inside = middle
+        else:
+            outside = middle
+    return inside
+
+
+def _united(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    joined: list[tuple[float, float]] = []
+    for start, end in sorted(spans):
+        if joined and start <= joined[-1][1] + 1e-6:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+        else:
+            joined.append((start, end))
+    return joined
+
+
+def _rest(curve: Curve, spans: list[tuple[float, float]], laid: _Laid) -> list[Curve]:
+    """What is left of a curve beside the spans; its new ends lie on the curves that they ran on."""
+    count = float(len(curve.cubics))
+    ends = [(end, after[0]) for (_, end), after in itertools.pairwise(spans)]
+    if curve.closed:
+        ends.append((spans[-1][1], spans[0][0] + count))
+        cut = [(True, True)] * len(ends)
+    else:
+        ends = [(0.0, spans[0][0]), *ends, (spans[-1][1], count)]
+        cut = [(k > 0, k < len(ends) - 1) for k in range(len(ends))]
+    rest = []
+    for (start, end), (at_start, at_end) in zip(ends, cut, strict=True):
+        cubics = stretch(curve, start, end) if end > start else None
+        if cubics is None:
+            continue
+        first = laid.onto(cubics[0, 0]) if at_start else cubics[0, 0]
+        last = laid.onto(cubics[-1, 3]) if at_end else cubics[-1, 3]
+        chain = moved(cubics, first, last)
+        if chain.length > _REST * laid.width:
+            rest.append(Curve(chain.points, closed=False))
+    return rest
+
+
+def _middle(curve: Curve, span: tuple[float, float]) -> tuple[FloatArray, float]:
+    cubics = stretch(curve, *span)
+    length = 0.0 if cubics is None else float(moved(cubics, cubics[0, 0], cubics[-1, 3]).length)
+    return _point(curve, (span[0] + span[1]) / 2), length
+
+
+def _point(curve: Curve, at: float) -> FloatArray:
+    at = at % len(curve.cubics) if curve.closed else at
+    k = min(max(int(at), 0), len(curve.cubics) - 1)
+    return evaluate(curve.cubics[k][None], np.array([at - k]))[0, 0]

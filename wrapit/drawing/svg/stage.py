@@ -1,0 +1,122 @@
+"""SVG drawings: the centre lines of their strokes, exactly, without a raster detour."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from wrapit.config import TracingConfig
+from wrapit.drawing.assembly import assemble, placement
+from wrapit.drawing.bitmap.strand_graph import Change
+from wrapit.drawing.components import connect
+from wrapit.drawing.json_file import LARGEST_SIZE_MM
+from wrapit.drawing.model import Drawing
+from wrapit.drawing.svg.duplicates import without_coincident
+from wrapit.drawing.svg.planar import planar
+from wrapit.drawing.svg.strokes import Strokes, read_strokes
+from wrapit.errors import DrawingError, Finding
+from wrapit.geometry import FloatArray
+
+# Ends within this many stroke widths of another stroke's centre touch its ink and belong to it.
+_REACH = 0.95
+# Without any stroke width: this share of the drawing's size.
+_REACH_SHARE = 2e-3
+# However broad the strokes are, no end farther away than this share of the size is meant.
+_MOST = 0.04
+_SMALLEST_SIZE_MM = 0.1
+# In sizes of the drawing: farther away, its coordinates lose what matters; broader, no line is seen.
+_FARTHEST = 1e7
+_BROADEST = 100.0
+# Finer strokes (in sizes of the drawing) are hairlines: they have no width that a file could hold.
+_FINEST = 1e-5
+
+
+def trace_svg(
+    path: Path, tracing: TracingConfig, size_mm: float | None
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    """The drawing in an SVG file, in its own size unless `size_mm` is given.
+
+    Raises DrawingError where the file can't be read, refers to others, or has no stroked lines.
+    """
+    strokes = read_strokes(path, tracing)
+    points = np.concatenate([curve.cubics.reshape(-1, 2) for curve in strokes.curves])
+    size = float(np.ptp(points, axis=0).max())
+    if size <= 0:
+        raise DrawingError("the lines have no length", str(path), "draw at least one line")
+    _refuse_absurd(points, size, strokes, size_mm, path)
+    reach = _REACH * strokes.width_px if strokes.width_px else _REACH_SHARE * size
+    curves, doubles = without_coincident(strokes.curves, min(reach, _MOST * size) / _REACH)
+    graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle, str(path))
+    if not graph.pieces:
+        raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
+    changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]
+    changes += [Change("double", _pair(at), length, "drawn twice, taken once") for at, length in doubles]
+    connected = connect(graph.places, graph.pieces, tracing.components, 0.25 * size)
+    where = placement(
+        [piece.curve for piece in connected.pieces], size_mm, flip=True, scale=strokes.mm_per_px
+    )
+    drawing = assemble(
+        connected.places,
+        connected.pieces,
+        where,
+        width=strokes.width_px if (strokes.width_px or 0) >= _FINEST * size else None,
+        changes=[*changes, *connected.changes],
+        pixel_frame=False,
+    )
+    findings = []
+    for notice in connected.notices:
+        x, y = where.points(np.array(notice.at_px))
+        place = f"at ({notice.at_px[0]:.1f}, {notice.at_px[1]:.1f}) px, ({x:.1f}, {y:.1f}) mm"
+        findings.append(Finding(notice.level, notice.code, place, notice.message, notice.remedy))
+    if doubles:
+        length = where.scale * sum(length for _, length in doubles)
+        findings.append(
+            Finding(
+                "note",
+                "drawn-twice",
+                "drawing",
+                f"{len(doubles)} stretches ({length:.1f} mm) are drawn twice, as where two shapes share an "
+                "edge; each is taken once",
+            )
+        )
+    if strokes.filled:
+        findings.append(
+            Finding(
+                "warning",
+                "filled-shapes",
+                "drawing",
+                f"{strokes.filled} filled shapes without a stroke are left out",
+                "give them a stroke, or set tracing.filled to outline",
+            )
+        )
+    return drawing, tuple(findings)
+
+
+def _refuse_absurd(
+    points: FloatArray, size: float, strokes: Strokes, size_mm: float | None, path: Path
+) -> None:
+    """Refuses sizes that only a mistake of the unit or a slip of the pen gives."""
+    drawn_mm = size * strokes.mm_per_px
+    if size_mm is None and not _SMALLEST_SIZE_MM <= drawn_mm <= LARGEST_SIZE_MM:
+        raise DrawingError(
+            f"the drawing is {drawn_mm:.3g} mm large, which is no size for jewellery",
+            str(path),
+            "add `size: 40 mm` to the config",
+        )
+    if float(np.abs(points).max()) > _FARTHEST * size:
+        raise DrawingError(
+            f"the lines are {size:.2g} px large and lie {np.abs(points).max():.2g} px away from (0, 0)",
+            str(path),
+            "move them into the page",
+        )
+    if strokes.width_px is not None and strokes.width_px > _BROADEST * size:
+        raise DrawingError(
+            f"the strokes are {strokes.width_px:.2g} px wide, and the drawing is only {size:.2g} px large",
+            str(path),
+            "correct their stroke-width",
+        )
+
+
+def _pair(point: FloatArray) -> tuple[float, float]:
+    return float(point[0]), float(point[1])

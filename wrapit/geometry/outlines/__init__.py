@@ -1,0 +1,1 @@
+"""Closed outlines of exact curves: parallels, offsets, polygons made exact."""

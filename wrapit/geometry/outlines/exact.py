@@ -1,0 +1,246 @@
+"""Exact outlines from polygons: the parts of a polygon that follow a parallel become that parallel.
+
+A polygon operation (union, difference, opening) is robust but only about right; here it decides what
+meets what, and the curves it was sampled from decide where, to 5e-5 mm. Where two parallels meet, their
+common point is found by Newton's method; where they run together too closely for one (tangent wires),
+a short straight edge joins them, on the polygon's side of both.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wrapit.geometry.arrays import FloatArray
+from wrapit.geometry.bezier import BezierChain
+from wrapit.geometry.curveset import CurveSet
+from wrapit.geometry.outlines.handover import Run, meet
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region
+from wrapit.geometry.outlines.parallels import Parallel, Round, Side, as_chain
+from wrapit.geometry.outlines.polygons import fitted_edges
+
+STEP_MM = 0.1
+SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
+FREE_TOLERANCE_MM = 0.005
+
+
+@dataclass(frozen=True, eq=False)
+class Outliner:
+    """Replaces a polygon's sides at `distance_mm`, give or take `slack_mm`, from an edge by exact curves."""
+
+    edges: tuple[Edge, ...]
+    curves: CurveSet
+    distance_mm: float
+    slack_mm: float
+
+    @staticmethod
+    def of(edges: Sequence[Edge], distance_mm: float, slack_mm: float) -> Outliner:
+        """An outliner for the parallels of these edges."""
+        return Outliner(tuple(edges), CurveSet.of([as_chain(e) for e in edges]), distance_mm, slack_mm)
+
+    def region(self, polygon: Any) -> Region:
+        """The exact region of a polygon whose outer ring is counter-clockwise, holes clockwise."""
+        from shapely.geometry.polygon import orient
+
+        polygon = orient(polygon)
+        return Region(self.loop(polygon.exterior), tuple(self.loop(ring) for ring in polygon.interiors))
+
+    def loop(self, ring: Any) -> Loop:
+        """The exact loop of one ring."""
+        runs, endless = self._runs(np.asarray(ring.segmentize(STEP_MM).coords)[:-1])
+        if endless:
+            return Loop(tuple(self._whole(runs[0])))
+        ends = [
+            meet(before, after, self.curves, self.distance_mm)
+            for before, after in zip(runs, runs[1:] + runs[:1], strict=True)
+        ]
+        edges: list[Edge] = []
+        for index, run in enumerate(runs):
+            start, finish = ends[index - 1].entering, ends[index].leaving
+            edges += self._edges(run, start.place, finish.place, start.point, finish.point)
+            if ends[index].bridged:
+                edges.append(Line(_xy(finish.point), _xy(ends[index].entering.point)))
+        return Loop(tuple(_snapped(edges)))
+
+    def _runs(self, points: FloatArray) -> tuple[list[Run], bool]:
+        """The ring's runs in order, and whether it is one run without beginning or end."""
+        near = self.curves.nearest(points, self.distance_mm + self.slack_mm)
+        on = np.abs(near.distance - self.distance_mm) <= self.slack_mm
+        key = np.full(len(points), -1, dtype=np.int64)
+        place = np.full(len(points), np.nan)
+        feet, tangents, _ = self.curves.frame(near.curve[on], near.at[on])
+        apart = points[on] - feet
+        across = tangents[:, 0] * apart[:, 1] - tangents[:, 1] * apart[:, 0]
+        oblique = np.abs((tangents * apart).sum(axis=1)) > SIDEWAYS * self.distance_mm
+        rounds = _Names()
+        names = [
+            2 * len(self.edges) + rounds.index(foot) if slant else 2 * int(curve) + int(side < 0)
+            for foot, slant, curve, side in zip(feet, oblique, near.curve[on], across, strict=True)
+        ]
+        key[on] = names
+        place[on] = np.where(oblique, np.arctan2(apart[:, 1], apart[:, 0]), near.at[on])
+        parallels = {name: self._parallel(name, rounds.points) for name in set(names)}
+        return _grouped(points, key, place, parallels)
+
+    def _parallel(self, name: int, centres: list[tuple[float, float]]) -> Parallel:
+        if name >= 2 * len(self.edges):
+            return Round(centres[name - 2 * len(self.edges)], self.distance_mm)
+        curve, right = divmod(name, 2)
+        return Side(self.curves, self.edges[curve], curve, -self.distance_mm if right else self.distance_mm)
+
+    def _whole(self, run: Run) -> list[Edge]:
+        """A ring that is one run: a full circle, a closed parallel without seam in sight, or free."""
+        if isinstance(run.parallel, Round):
+            turn = math.copysign(2 * math.pi, _signed_area(run.points))
+            return [Arc(run.parallel.centre, run.parallel.radius_mm, float(run.place[0]), turn)]
+        if run.parallel is None:
+            half = int(np.linalg.norm(run.points - run.points[0], axis=1).argmax())
+            back = np.concatenate([run.points[half:], run.points[:1]])
+            return _snapped(self._free(run.points[: half + 1]) + self._free(back))
+        start, end = float(run.place[0]), float(run.place[-1])
+        ends = run.parallel.at(np.array([start, end]))[0]
+        return _snapped([run.parallel.between(start, end), Line(_xy(ends[1]), _xy(ends[0]))])
+
+    def _edges(self, run: Run, start: float, end: float, first: FloatArray, last: FloatArray) -> list[Edge]:
+        if run.parallel is None:
+            # A point this near to the handover may lie behind it and would fold the outline back.
+            apart = np.minimum(*(np.linalg.norm(run.points - end, axis=1) for end in (first, last)))
+            inner = run.points[apart > 3 * self.slack_mm]
+            return self._free(np.concatenate([first[None], inner, last[None]]))
+        if np.linalg.norm(first - last) < 1e-7 and abs(end - start) < 1e-5:
+            return []
+        return [run.parallel.between(start, end)]
+
+    def _free(self, points: FloatArray) -> list[Edge]:
+        """Fitted edges; straight ones from point to point where a fitted one would come too near a curve."""
+        edges = fitted_edges(points, FREE_TOLERANCE_MM)
+        if all(self._clear(edge) for edge in edges):
+            return edges
+        thinned = _without_needless(points)
+        return [Line(_xy(a), _xy(b)) for a, b in itertools.pairwise(thinned)]
+
+    def _clear(self, edge: Edge) -> bool:
+        if isinstance(edge, Line):
+            return True
+        near = self.curves.nearest(edge.sampled(0.02), self.distance_mm)
+        return bool((near.distance >= self.distance_mm - 1e-7).all())
+
+
+class _Names:
+    """Numbers points; points within 1e-6 of one another get the same number."""
+
+    def __init__(self) -> None:
+        self.points: list[tuple[float, float]] = []
+        self._known: dict[tuple[int, int], int] = {}
+
+    def index(self, point: FloatArray) -> int:
+        key = (round(float(point[0]) * 1e6), round(float(point[1]) * 1e6))
+        if key not in self._known:
+            near = [self._known.get((key[0] + i, key[1] + j)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+            found = next((n for n in near if n is not None), None)
+            if found is None:
+                found = len(self.points)
+                self.points.append(_xy(point))
+            self._known[key] = found
+        return self._known[key]
+
+
+def _grouped(
+    points: FloatArray, key: np.ndarray, place: FloatArray, parallels: dict[int, Parallel]
+) -> tuple[list[Run], bool]:
+    """Runs of neighbouring points on one parallel; single points between two parallels are left out."""
+    key = key.copy()
+    jump = _jumps(points, key, place, parallels)
+    keep = np.ones(len(points), dtype=bool)
+    for index in range(len(points)):
+        alone = jump[index - 1] and jump[index]
+        if alone:
+            neighbours = key[index - 1], key[(index + 1) % len(points)]
+            if min(neighbours) >= 0:
+                keep[index] = False
+            else:
+                key[index] = -1
+    points, key, place = points[keep], key[keep], place[keep]
+    jump = _jumps(points, key, place, parallels)
+    cuts = np.flatnonzero(jump) + 1
+    if not len(cuts):
+        return [Run(parallels.get(int(key[0])), points, _unwrapped(key[0], place, parallels))], True
+    order = np.roll(np.arange(len(points)), -int(cuts[0] % len(points)))
+    starts = np.concatenate([[0], np.cumsum(np.diff(cuts)), [len(points)]])
+    runs = []
+    for a, b in itertools.pairwise(starts):
+        which = order[a:b]
+        name = int(key[which[0]])
+        runs.append(Run(parallels.get(name), points[which], _unwrapped(name, place[which], parallels)))
+    return runs, False
+
+
+def _jumps(
+    points: FloatArray, key: np.ndarray, place: FloatArray, parallels: dict[int, Parallel]
+) -> np.ndarray:
+    """Whether the run ends between point i and the next: another parallel, or a leap along the same one."""
+    jump = key != np.roll(key, -1)
+    steps = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
+    for name, parallel in parallels.items():
+        if isinstance(parallel, Side):
+            mine = np.flatnonzero((key == name) & ~jump)
+            start, end = place[mine], np.roll(place, -1)[mine]
+            # A piece is at most about 1 mm long; inside a tight bend a parallel moves slower than its curve.
+            leap = np.abs(end - start) > 6 * steps[mine] + 0.6
+            jump[mine[leap | parallel.folds(start, end)]] = True
+    return jump
+
+
+def _unwrapped(name: int, place: FloatArray, parallels: dict[int, Parallel]) -> FloatArray:
+    return np.unwrap(place) if isinstance(parallels.get(int(name)), Round) else place
+
+
+def _snapped(edges: list[Edge]) -> list[Edge]:
+    """The edges with each one's start put exactly on the end of the one before (they differ by rounding)."""
+    snapped: list[Edge] = []
+    for index, edge in enumerate(edges):
+        before, after = edges[index - 1], edges[(index + 1) % len(edges)]
+        start = _arc_point(before, last=True) or (edge.start if isinstance(edge, Arc) else _end(before))
+        end = _arc_point(after, last=False)
+        if isinstance(edge, Line):
+            snapped.append(Line(start, end or edge.end))
+        elif isinstance(edge, BezierChain):
+            cubics = edge.points.copy()
+            cubics[0, :2] += np.array(start) - cubics[0, 0]
+            if end:
+                cubics[-1, 2:] += np.array(end) - cubics[-1, 3]
+            snapped.append(BezierChain(cubics))
+        else:
+            snapped.append(edge)
+    return snapped
+
+
+def _arc_point(edge: Edge, *, last: bool) -> tuple[float, float] | None:
+    if not isinstance(edge, Arc):
+        return None
+    return edge.end if last else edge.start
+
+
+def _end(edge: Edge) -> tuple[float, float]:
+    return _xy(edge.end) if isinstance(edge, BezierChain) else edge.end
+
+
+def _without_needless(points: FloatArray) -> FloatArray:
+    """The points without those on the straight line between their neighbours."""
+    a, b = np.diff(points[:-1], axis=0), np.diff(points[1:], axis=0)
+    bent = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-9
+    return points[np.concatenate([[True], bent, [True]])]
+
+
+def _signed_area(points: FloatArray) -> float:
+    x, y = points.T
+    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()) / 2
+
+
+def _xy(point: FloatArray) -> tuple[float, float]:
+    return float(point[0]), float(point[1])

@@ -1,0 +1,106 @@
+"""The wires of a jig as curves to measure against: places by arc length, normals, nearest points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig
+from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry.arclength import ArcLength
+from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.outlines.exact import Outliner
+from wrapit.geometry.pieces import chain_of
+from wrapit.wires.model import Turn, Wire
+
+# A channel sampled this much too wide always holds the true one; sides up to SLACK off it are snapped to it.
+CHANNEL_PAD_MM = 3e-4
+CHANNEL_SLACK_MM = 1.2e-3
+SAGITTA_MM = 1e-4
+SIDES = {"left": (1.0,), "right": (-1.0,), "both": (1.0, -1.0)}
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """The wires that share one jig. All have one diameter; ValueError otherwise, or without any wire."""
+
+    wires: tuple[Wire, ...]
+    clearance_mm: float
+
+    def __post_init__(self) -> None:
+        if len({wire.diameter_mm for wire in self.wires}) != 1:
+            raise ValueError("a jig takes one or more wires of one diameter")
+
+    @staticmethod
+    def of(wires: tuple[Wire, ...], config: JigConfig) -> Course:
+        """The wires' course with the configured clearance."""
+        return Course(wires, config.clearance)
+
+    @property
+    def diameter_mm(self) -> float:
+        """Diameter of the wires."""
+        return self.wires[0].diameter_mm
+
+    @property
+    def reach_mm(self) -> float:
+        """From a wire's centreline to the face of a wall that holds it."""
+        return self.diameter_mm / 2 + self.clearance_mm
+
+    @cached_property
+    def chains(self) -> tuple[BezierChain, ...]:
+        """The centrelines as cubics, one chain for each wire."""
+        return tuple(chain_of(wire.centreline) for wire in self.wires)
+
+    @cached_property
+    def outliner(self) -> Outliner:
+        """Makes exact outlines of polygons that lie against the wires' channels."""
+        return Outliner.of(self.chains, self.reach_mm, CHANNEL_SLACK_MM)
+
+    @cached_property
+    def channels(self) -> Any:
+        """Everything that a wire and its clearance take up, as shapely geometry, CHANNEL_PAD_MM too wide."""
+        import shapely
+
+        lines = shapely.linestrings
+        parts = [lines(self._polyline(index)) for index in range(len(self.wires))]
+        return shapely.union_all(shapely.buffer(parts, self.reach_mm + CHANNEL_PAD_MM, quad_segs=32))
+
+    def stations(self, turn: Turn, step_mm: float, extra_mm: float = 0.0) -> tuple[FloatArray, ...]:
+        """Arc lengths (m,), points (m, 2), left normals (m, 2), curvatures (m,) along a turn.
+
+        `extra_mm` prolongs the turn at both ends, as far as the wire goes.
+        """
+        index = self._index[turn.wire]
+        length, spline = self._lengths[index], self.wires[index].centreline
+        low, high = max(0.0, turn.start_mm - extra_mm), min(length.total_mm, turn.end_mm + extra_mm)
+        at_mm = np.linspace(low, high, max(2, 1 + int(np.ceil((high - low) / step_mm))))
+        u = length.parameter(at_mm)
+        tangent = unit(spline.derivative(u))
+        return at_mm, spline.at(u), np.column_stack([-tangent[:, 1], tangent[:, 0]]), spline.curvature(u)
+
+    def place(self, turn: Turn) -> str:
+        """Where a turn is, for a person: `wire-02 at 41 mm`."""
+        return f"{turn.wire} at {(turn.start_mm + turn.end_mm) / 2:.0f} mm"
+
+    @cached_property
+    def _index(self) -> dict[str, int]:
+        return {wire.name: index for index, wire in enumerate(self.wires)}
+
+    @cached_property
+    def _lengths(self) -> tuple[ArcLength, ...]:
+        return tuple(ArcLength(wire.centreline) for wire in self.wires)
+
+    def _polyline(self, index: int) -> FloatArray:
+        """The centreline as points whose chords keep within SAGITTA_MM of it."""
+        curves = self.outliner.curves
+        pieces = curves.pieces[curves.first[index] : curves.last[index] + 1]
+        # The chord of a cubic strays by at most 1/8 of its largest second derivative (per unit parameter).
+        second = 6 * np.linalg.norm(np.diff(pieces, n=2, axis=1), axis=2).max(axis=1)
+        counts = np.maximum(1, np.ceil(np.sqrt(second / (8 * SAGITTA_MM)))).astype(int)
+        parts = [pieces[:1, 0]]
+        for piece, count in zip(pieces, counts, strict=True):
+            parts.append(evaluate(piece[None], np.arange(1, count + 1) / count)[0])
+        return np.concatenate(parts)

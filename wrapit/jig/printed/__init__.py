@@ -1,0 +1,1 @@
+"""The jig for a 3D printer."""

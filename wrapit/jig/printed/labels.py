@@ -1,0 +1,73 @@
+"""Each wire's number beside the hole where it starts, on free plate."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from wrapit.errors import Finding
+from wrapit.geometry.outlines.polygons import region_of
+from wrapit.jig.channel import Course
+from wrapit.jig.model import Label
+from wrapit.jig.printed.digits import number_polygon
+
+HEIGHTS_MM = (4.0, 3.2, 2.5)
+STROKE_MM = 0.6
+DEPTH_MM = 0.4
+GAP_MM = 0.4
+RING_STEP_MM = 1.0
+RINGS = 14
+DIRECTIONS = 16
+
+
+def wire_labels(
+    course: Course, taken: Any, plate: Any, most_depth_mm: float
+) -> tuple[tuple[Label, ...], tuple[Finding, ...]]:
+    """A label for each wire, as near to its start as there is room beside what is `taken`.
+
+    Places beside the wires are preferred to places under them. A wire without room gets a finding.
+    """
+    import shapely
+
+    room = plate.buffer(-1.0)
+    under = shapely.union_all([taken, course.channels])
+    shapely.prepare(room)
+    depth = min(DEPTH_MM, most_depth_mm)
+    labels, missing = [], []
+    for wire in course.wires:
+        number = int("".join(c for c in wire.name if c.isdigit()) or 0)
+        spot = _spot(number, tuple(wire.ends[0].tolist()), room, (under, taken))
+        if spot is None:
+            missing.append(wire.name)
+            continue
+        strokes = tuple(region_of(part) for part in shapely.get_parts(spot))
+        labels.append(Label(str(number), strokes, depth))
+        grown = spot.buffer(GAP_MM)
+        taken, under = taken.union(grown), under.union(grown)
+    findings: list[Finding] = []
+    if missing:
+        findings.append(
+            Finding("note", "no-room-for-number", ", ".join(missing), "there is no free plate for its number")
+        )
+    return tuple(labels), tuple(findings)
+
+
+def _spot(number: int, start: tuple[float, float], room: Any, blocked: Sequence[Any]) -> Any:
+    import shapely
+
+    for obstacle in blocked:
+        for height in HEIGHTS_MM:
+            glyph = number_polygon(number, height, STROKE_MM)
+            frame = shapely.box(*glyph.bounds).buffer(GAP_MM, join_style="mitre")
+            shapely.prepare(obstacle)
+            for ring in range(2, RINGS):
+                for step in range(DIRECTIONS):
+                    # Start below the hole, where a label reads most naturally, then go round.
+                    angle = -math.pi / 2 + 2 * math.pi * step / DIRECTIONS
+                    x = start[0] + ring * RING_STEP_MM * math.cos(angle)
+                    y = start[1] + ring * RING_STEP_MM * math.sin(angle)
+                    here = shapely.affinity.translate(frame, x, y)
+                    if room.contains(here) and not obstacle.intersects(here):
+                        return shapely.affinity.translate(glyph, x, y)
+    return None

@@ -1,0 +1,70 @@
+"""The plan of a jig: which walls, holes and plate these wires need, in the plane and without a kernel."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from wrapit.config import JigConfig
+from wrapit.errors import Finding
+from wrapit.geometry import Region
+from wrapit.jig.channel import Course
+from wrapit.jig.holes import hole_obstacles, hole_rims, start_holes
+from wrapit.jig.model import JigPlan, Label, Plate, Wall
+from wrapit.jig.pins import pin_holes, pin_obstacles
+from wrapit.jig.printed.labels import wire_labels
+from wrapit.jig.printed.plate import plate_outline
+from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
+from wrapit.jig.wall_ground import wall_polygons
+from wrapit.jig.wall_height import wall_heights
+from wrapit.wires.model import Wire
+
+LABEL_GAP_MM = 0.3
+
+
+def plan_jig(
+    wires: tuple[Wire, ...], config: JigConfig, name: str = "jig"
+) -> tuple[JigPlan, tuple[Finding, ...]]:
+    """The plan of one jig that holds all these wires.
+
+    Raises JigError where the plate doesn't fit the bed or a seat is in a start hole's way, ValueError
+    without wires or for wires of different diameters.
+    """
+    import shapely
+
+    course = Course.of(wires, config)
+    holes = start_holes(course, config)
+    rims = hole_rims(holes)
+    seats = seats_of(config)
+    check_holes(seats, rims)
+    pockets = seat_obstacles(seats)
+    blocked = hole_obstacles(holes).union(pockets)
+    polygons, dropped = wall_polygons(course, config, blocked)
+    pins = pin_holes(
+        course, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
+    )
+    if pins:
+        blocked = shapely.union_all([blocked, pin_obstacles(pins)])
+        polygons, dropped = wall_polygons(course, config, blocked)
+    heights = wall_heights(course, [polygon for polygon, _ in polygons], config)
+    walls = tuple(
+        Wall(turns, polygon, height) for (polygon, turns), height in zip(polygons, heights, strict=True)
+    )
+    covered = shapely.union_all([course.channels, rims, pockets, *(wall.outline for wall in walls)])
+    outline, screws = plate_outline(covered, config, name)
+    plate = Plate(Region(outline), config.base_thickness)
+    labels: tuple[Label, ...] = ()
+    unlabelled: tuple[Finding, ...] = ()
+    if config.numbers:
+        taken = shapely.union_all([blocked, rims, *(wall.outline for wall in walls)]).buffer(LABEL_GAP_MM)
+        screwed = [_polygon(screw).buffer(LABEL_GAP_MM) for screw in screws]
+        labels, unlabelled = wire_labels(
+            course, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
+        )
+    names = tuple(wire.name for wire in wires)
+    return JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats), (*dropped, *unlabelled)
+
+
+def _polygon(loop: Any) -> Any:
+    import shapely
+
+    return shapely.Polygon(loop.sampled(0.01))

@@ -1,0 +1,136 @@
+"""Seats: round pockets in the plate that hold beads or stones while wire is laid round them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig, SeatConfig
+from wrapit.errors import JigError
+from wrapit.geometry.pieces import chain_of
+from wrapit.jig.channel import Course
+from wrapit.jig.model import Seat
+from wrapit.wires.model import Wire
+
+WEB_MM = 0.5  # plate between a pocket and another, or a start hole
+FOOT_MM = 0.1  # between a pocket's rim and a wall's foot
+FLOOR_MM = 0.8  # plate under a pocket
+
+
+def seats_of(config: JigConfig) -> tuple[Seat, ...]:
+    """The seats as they are built: pockets wider than the beads by the clearance all round.
+
+    A post is as high as the walls, but never higher than the bead.
+    """
+    return tuple(
+        Seat(
+            seat.at,
+            seat.diameter,
+            seat.diameter + 2 * config.clearance,
+            seat.depth,
+            seat.post,
+            max(0.0, min(config.min_wall_height, seat.diameter - seat.depth)),
+        )
+        for seat in config.seats
+    )
+
+
+def check_seats(course: Course, config: JigConfig) -> None:
+    """Raises JigError, naming the seat, where one can't be built or is in the way of a wire or another."""
+    for seat, built in zip(config.seats, seats_of(config), strict=True):
+        _check_size(seat, config)
+        _check_wires(course, built)
+    for first, second in itertools.combinations(seats_of(config), 2):
+        apart = math.dist(first.centre, second.centre) - (first.diameter_mm + second.diameter_mm) / 2
+        if apart < WEB_MM:
+            raise JigError(
+                f"it and the seat at {_xy(second)} are nearer than {WEB_MM:g} mm",
+                f"seat at {_xy(first)}",
+                f"move one by {WEB_MM - apart:.1f} mm or more",
+            )
+
+
+def check_holes(seats: Sequence[Seat], rims: Any) -> None:
+    """Raises JigError where a start hole (shapely geometry of all) runs into a pocket."""
+    for seat in seats:
+        web = rims.distance(_disc(seat, 0.0))
+        if web < WEB_MM:
+            raise JigError(
+                "a wire ends there, and its start hole would run into the pocket",
+                f"seat at {_xy(seat)}",
+                f"move it away from the wire's end by {WEB_MM - web:.1f} mm or more, or make it smaller",
+            )
+
+
+def seat_obstacles(seats: Sequence[Seat], around_mm: float = FOOT_MM) -> Any:
+    """Where nothing else may stand because of the seats, as shapely geometry."""
+    import shapely
+
+    return shapely.union_all([_disc(seat, around_mm) for seat in seats])
+
+
+def seats_near(group: Sequence[Wire], wires: Sequence[Wire], config: JigConfig) -> JigConfig:
+    """The config of the jig for a group of the wires: its seats are those that one of them passes nearest."""
+    import shapely
+
+    if not config.seats or len(group) == len(wires):
+        return config
+    lines = [shapely.LineString(chain_of(wire.centreline).sampled(0.05)) for wire in wires]
+    seats = []
+    for seat in config.seats:
+        middle = shapely.Point(seat.at)
+        apart = [line.distance(middle) for line in lines]
+        if wires[apart.index(min(apart))] in group:
+            seats.append(seat)
+    return config.model_copy(update={"seats": tuple(seats)})
+
+
+def mirrored_seats(config: JigConfig) -> JigConfig:
+    """The config of the mirrored jig: seats with left and right exchanged."""
+    seats = tuple(seat.model_copy(update={"at": (-seat.at[0], seat.at[1])}) for seat in config.seats)
+    return config.model_copy(update={"seats": seats})
+
+
+def _check_size(seat: SeatConfig, config: JigConfig) -> None:
+    where = f"seat at ({seat.at[0]:g}, {seat.at[1]:g}) mm"
+    if seat.depth > config.base_thickness - FLOOR_MM + 1e-9:
+        raise JigError(
+            f"a pocket of {seat.depth:g} mm leaves less than {FLOOR_MM:g} mm of the plate under it",
+            where,
+            f"make it {config.base_thickness - FLOOR_MM:.1f} mm deep or less, or raise jig.base_thickness",
+        )
+    if seat.post and not config.min_wall_width <= seat.post < seat.diameter / 2:
+        raise JigError(
+            f"a post of {seat.post:g} mm can't be printed in a pocket of {seat.diameter:g} mm",
+            where,
+            f"make it from {config.min_wall_width:g} mm to half the bead's diameter, or leave it out",
+        )
+
+
+def _check_wires(course: Course, seat: Seat) -> None:
+    """A pocket reaches under no wire."""
+    point = np.array([seat.centre])
+    near = course.outliner.curves.nearest(point, seat.diameter_mm / 2 + 2 * course.diameter_mm)
+    short = (seat.diameter_mm + course.diameter_mm) / 2 - float(near.distance[0])
+    if short <= 1e-9:
+        return
+    smaller = f", or make it {2 * short:.1f} mm smaller" if 4 * short < seat.diameter_mm else ""
+    raise JigError(
+        f"a wire passes {float(near.distance[0]):.1f} mm from its middle and would lie over the pocket",
+        f"seat at {_xy(seat)}",
+        f"move it {short:.1f} mm away from the wire{smaller}",
+    )
+
+
+def _disc(seat: Seat, around_mm: float) -> Any:
+    import shapely
+
+    return shapely.Point(seat.centre).buffer(seat.diameter_mm / 2 + around_mm, quad_segs=32)
+
+
+def _xy(seat: Seat) -> str:
+    return f"({seat.centre[0]:g}, {seat.centre[1]:g}) mm"

@@ -1,0 +1,93 @@
+"""The jig's solid from its plan and exact faces."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+from wrapit.config import JigConfig
+from wrapit.geometry import Arc, Loop, Region
+from wrapit.geometry.outlines.moves import circle
+from wrapit.geometry.outlines.polygons import fitted_edges, polygon_of, region_of
+from wrapit.jig.model import JigPlan, Seat
+
+if TYPE_CHECKING:
+    from wrapit.kernel.terraces import Terrace, Terraced
+
+CROWN_TOLERANCE_MM = 0.01
+LEAST_CROWN_MM2 = 0.3
+
+
+def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Terraced:
+    """One solid: plate with holes and seats, walls on it, numbers engraved.
+
+    Raises KernelError naming the jig.
+    """
+    from wrapit.kernel.terraces import Terrace, terraced_solid
+
+    top = plan.plate.thickness_mm
+    terraces = [
+        _wall(region, top, wall.height_mm, config.lead_in)
+        for region, wall in zip(walls, plan.walls, strict=True)
+    ]
+    for label in plan.labels:
+        terraces += [Terrace(stroke, top - label.depth_mm) for stroke in label.strokes]
+    terraces += [_seat(seat, top) for seat in plan.seats]
+    through = [hole.outline for hole in plan.holes]
+    through += [Loop((Arc(pin.centre, pin.diameter_mm / 2, 0.0, 2 * math.pi),)) for pin in plan.pins]
+    through += plan.screw_holes
+    return terraced_solid(plan.plate.outline.outer, 0.0, top, terraces, through, plan.name)
+
+
+def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float) -> Terrace:
+    """A wall whose top is set back all round by the lead-in, over the same height.
+
+    Its faces towards the wires stay exact up to the step; a wall too narrow for one has none.
+    """
+    from wrapit.kernel.terraces import Terrace
+
+    crest = ground_mm + height_mm
+    if lead_in_mm > 0:
+        foot = polygon_of(region, 1e-3)
+        crown = foot.simplify(1e-3).buffer(-lead_in_mm, quad_segs=4)
+        crowns = [part for part in shapely.get_parts(crown) if part.area > LEAST_CROWN_MM2]
+        if crowns:
+            upon = tuple(Terrace(_within(part, foot), crest) for part in crowns)
+            return Terrace(region, crest - lead_in_mm, upon)
+    return Terrace(region, crest)
+
+
+def _seat(seat: Seat, ground_mm: float) -> Terrace:
+    """A pocket, with its post."""
+    from wrapit.kernel.terraces import Terrace
+
+    post = Terrace(Region(circle(seat.centre, seat.post_mm / 2)), ground_mm + seat.post_height_mm)
+    return Terrace(Region(seat.pocket), ground_mm - seat.depth_mm, (post,) if seat.post_mm else ())
+
+
+def _within(crown: shapely.Polygon, foot: shapely.Polygon) -> Region:
+    """The crown with smooth sides, or straight ones where smooth ones would cross or leave the wall."""
+    smooth = _fitted(crown)
+    sampled = polygon_of(smooth, 1e-3)
+    if sampled.is_valid and foot.contains_properly(sampled):
+        return smooth
+    return region_of(crown.simplify(CROWN_TOLERANCE_MM))
+
+
+def _fitted(polygon: shapely.Polygon) -> Region:
+    return Region(_fitted_loop(polygon.exterior), tuple(_fitted_loop(ring) for ring in polygon.interiors))
+
+
+def _fitted_loop(ring: shapely.LinearRing) -> Loop:
+    """A smooth loop through the ring, in two halves so that neither closes on itself."""
+    points = np.asarray(ring.coords)
+    half = int(np.linalg.norm(points - points[0], axis=1).argmax())
+    return Loop(
+        (
+            *fitted_edges(points[: half + 1], CROWN_TOLERANCE_MM),
+            *fitted_edges(points[half:], CROWN_TOLERANCE_MM),
+        )
+    )

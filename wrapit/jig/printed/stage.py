@@ -1,0 +1,64 @@
+"""Builds the jig: plan, exact faces, one solid, and the proof that it holds the wires."""
+
+from __future__ import annotations
+
+from wrapit.config import JigConfig
+from wrapit.errors import Finding, JigError
+from wrapit.geometry import Region
+from wrapit.jig.model import Jig, JigSet, Part
+from wrapit.jig.printed.planning import PlannedJig, plan_jigs, refuse_unheld
+from wrapit.jig.printed.solid import jig_solid
+from wrapit.jig.wall_face import CLEARANCE_TOLERANCE_MM
+from wrapit.wires.model import Wire
+
+COLOUR = "#c8ccd4"
+
+
+def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
+    """The printed jig of these wires, or several where one would hold a wire badly; checked.
+
+    Raises JigError where no jig can be made or one fails its check where it would hold too
+    little, KernelError where the kernel fails.
+    """
+    planned, findings = plan_jigs(wires, config)
+    refuse_unheld(planned, config)
+    refuse_unheld(planned, config)
+    jigs = tuple(_built(part, config) for part in planned)
+    return JigSet(
+        "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"
+    ), findings
+
+
+def _built(part: PlannedJig, config: JigConfig) -> Jig:
+    gap = _checked_gap(part, config)
+    made = jig_solid(part.plan, part.walls, config)
+    from wrapit.kernel.checks import count_solids, size_mm
+
+    plan = part.plan
+    openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
+    openings += [seat.pocket for seat in plan.seats]
+    return Jig(
+        name=plan.name,
+        wires=plan.wires,
+        part=Part(plan.name, made.solid, COLOUR),
+        walls=part.walls,
+        plate=Region(plan.plate.outline.outer, tuple(openings)),
+        plan=plan,
+        valid=True,
+        solids=count_solids(made.solid),
+        volume_mm3=made.volume_mm3,
+        support=part.support,
+        min_wall_to_wire_mm=gap,
+        size_mm=size_mm(made.solid),
+    )
+
+
+def _checked_gap(part: PlannedJig, config: JigConfig) -> float | None:
+    gap = min((face.gap_mm for face in part.faces), default=None)
+    if gap is not None and gap < config.clearance - CLEARANCE_TOLERANCE_MM:
+        raise JigError(
+            f"a wall comes within {gap:.4f} mm of a wire",
+            part.plan.name,
+            "change jig.clearance or the size a little",
+        )
+    return gap

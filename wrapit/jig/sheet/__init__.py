@@ -1,0 +1,1 @@
+"""The jig cut from sheet by a laser."""

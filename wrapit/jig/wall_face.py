@@ -1,0 +1,57 @@
+"""Exact wall faces from the plan's polygons, each checked; the polygon itself where that fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wrapit.errors import Finding
+from wrapit.geometry import Region
+from wrapit.geometry.outlines.polygons import polygon_of, region_area_mm2, region_of
+from wrapit.jig.channel import Course
+from wrapit.jig.model import Wall
+from wrapit.jig.support import min_wall_to_wire_mm
+
+CLEARANCE_TOLERANCE_MM = 1e-3
+AREA_PER_MM = 6e-3  # an exact outline differs from its polygon by less than this on average
+SAMPLE_MM = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A wall's face, its smallest gap to any wire's surface, and whether its outline is exact."""
+
+    region: Region
+    gap_mm: float
+    exact: bool
+
+
+def wall_face(course: Course, wall: Wall) -> Face:
+    """The exact face; where it fails its check, the polygon, whose sides are within 1e-3 mm of it."""
+    try:
+        region = course.outliner.region(wall.outline)
+    except (ValueError, IndexError, ArithmeticError):  # no outline could be put together
+        return _plain(course, wall)
+    gap, _ = min_wall_to_wire_mm(course, (region,))
+    sampled = polygon_of(region, SAMPLE_MM)
+    true = (
+        gap is not None
+        and gap >= course.clearance_mm - CLEARANCE_TOLERANCE_MM
+        and sampled.is_valid
+        and abs(region_area_mm2(region) - wall.outline.area) < AREA_PER_MM * wall.outline.length
+    )
+    return Face(region, float(gap or 0.0), exact=True) if true else _plain(course, wall)
+
+
+def plain_finding(faces: tuple[Face, ...], jig: str) -> tuple[Finding, ...]:
+    """Says so when walls have outlines of short straight lines instead of exact curves."""
+    plain = sum(not face.exact for face in faces)
+    if not plain:
+        return ()
+    message = f"{plain} of {len(faces)} walls follow the wire in short straight lines, within 0.002 mm"
+    return (Finding("note", "plain-wall", jig, message, "nothing needs to be done"),)
+
+
+def _plain(course: Course, wall: Wall) -> Face:
+    region = region_of(wall.outline.simplify(1e-4))
+    gap, _ = min_wall_to_wire_mm(course, (region,))
+    return Face(region, float(gap or 0.0), exact=False)

@@ -1,0 +1,117 @@
+"""Wall polygons: solid ground on the inside of each turn, less the channels of all wires.
+
+Everything here is right to about 1e-3 mm; `wrapit.jig.wall_face` makes the outlines exact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig
+from wrapit.errors import Finding
+from wrapit.geometry import FloatArray
+from wrapit.jig.channel import SIDES, Course
+from wrapit.wires.model import Turn
+
+STEP_MM = 0.3
+TOUCH_MM = 0.02
+TOUCH_STEP_MM = 0.2
+SMOOTHING_MM = 0.5
+SIMPLER_MM = 5e-4
+
+
+def wall_polygons(
+    course: Course, config: JigConfig, obstacles: Any
+) -> tuple[list[tuple[Any, tuple[Turn, ...]]], tuple[Finding, ...]]:
+    """Each wall's polygon with the turns that it holds, from lower left to upper right; what was dropped.
+
+    Walls thinner than `min_wall_width` or smaller than `min_wall_area` are left out, and so are
+    those that touch the inside of no turn.
+    """
+    import shapely
+
+    turns = [turn for wire in course.wires for turn in wire.turns]
+    if not turns:
+        return [], ()
+    ground = shapely.union_all([blank(course, turn, config) for turn in turns])
+    # Notches between neighbouring blanks are filled, convex corners stay as they are.
+    ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
+    ground = ground.simplify(SIMPLER_MM)
+    free = ground.difference(course.channels).difference(obstacles)
+    pieces = sorted(_polygons(_printable(free, config)), key=lambda part: tuple(np.round(part.bounds, 6)))
+    held = _held(course, turns, pieces)
+    walls = [(piece, mine) for piece, mine in zip(pieces, held, strict=True) if mine]
+    kept = [wall for wall in walls if wall[0].area >= config.min_wall_area]
+    small = [piece for piece, _ in walls if piece.area < config.min_wall_area]
+    return kept, (_dropped(small, config),) if small else ()
+
+
+def blank(course: Course, turn: Turn, config: JigConfig) -> Any:
+    """The ground within wall thickness of a turn on its inside: all points c + x n, 0 ≤ x ≤ depth.
+
+    Where the turn is tighter than the depth, the rays cross at its centre and fill it: a solid post.
+    """
+    import shapely
+
+    depth = course.reach_mm + config.wall_thickness
+    _, points, normals, curvature = course.stations(turn, STEP_MM, config.min_wall_width)
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    if (np.abs(curvature[:-1]) * steps).max() > math.radians(6):
+        finer = STEP_MM * math.radians(6) / float((np.abs(curvature[:-1]) * steps).max())
+        _, points, normals, _ = course.stations(turn, max(finer, 0.03), config.min_wall_width)
+    strips = []
+    for side in SIDES[turn.inside]:
+        far = points + side * depth * normals
+        corners = np.stack([points[:-1], points[1:], far[1:], far[:-1]], axis=1)
+        strips.append(shapely.convex_hull(shapely.multipoints(corners)))
+    return shapely.union_all(np.concatenate(strips))
+
+
+def _dropped(small: Sequence[Any], config: JigConfig) -> Finding:
+    largest = max(small, key=lambda piece: piece.area)
+    x, y = largest.representative_point().coords[0]
+    return Finding(
+        "note",
+        "small-wall",
+        f"({x:.1f}, {y:.1f}) mm",
+        f"{len(small)} walls smaller than {config.min_wall_area:g} mm² are left out,"
+        f" the largest of {largest.area:.1f} mm²",
+        "make the piece larger, or lower jig.min_wall_area",
+    )
+
+
+def _printable(free: Any, config: JigConfig) -> Any:
+    """What remains where a disc of the smallest width fits; corners up to a right angle stay sharp."""
+    half = config.min_wall_width / 2
+    core = free.buffer(-half, quad_segs=16)
+    return core.buffer(half * math.sqrt(2) + 0.005, quad_segs=16).intersection(free)
+
+
+def _held(course: Course, turns: Sequence[Turn], pieces: Sequence[Any]) -> list[tuple[Turn, ...]]:
+    """For each piece the turns whose inside it touches."""
+    import shapely
+
+    held: list[list[Turn]] = [[] for _ in pieces]
+    tree = shapely.STRtree(pieces)
+    for turn in turns:
+        probes = shapely.points(face_probes(course, turn, TOUCH_STEP_MM, TOUCH_MM))
+        for piece in sorted(set(tree.query(probes, predicate="within")[1].tolist())):
+            held[piece].append(turn)
+    return [tuple(turns) for turns in held]
+
+
+def face_probes(course: Course, turn: Turn, step_mm: float, depth_mm: float) -> FloatArray:
+    """Points (m, 2) just inside where the wall's face along a turn should be."""
+    _, points, normals, _ = course.stations(turn, step_mm)
+    away = course.reach_mm + depth_mm
+    return np.concatenate([points + side * away * normals for side in SIDES[turn.inside]])
+
+
+def _polygons(shape: Any) -> list[Any]:
+    import shapely
+
+    return [part for part in shapely.get_parts(shape) if part.geom_type == "Polygon"]
