@@ -23,8 +23,8 @@ from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import total_support
 from wrapit.jig.wall_ground import blank
-from wrapit.kernel.checks import volume_mm3
 from wrapit.kernel.edges import region_face
+from wrapit.kernel.measures import volume_mm3
 from wrapit.wires.model import Wire
 
 NAIVE_LIMIT_S = 240.0

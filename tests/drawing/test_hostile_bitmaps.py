@@ -18,7 +18,7 @@ from PIL import Image
 from tests.drawing.generated import render
 from tests.drawing.mutations import damaged
 from wrapit.config import TracingConfig
-from wrapit.drawing import grey
+from wrapit.drawing.bitmap import grey
 from wrapit.drawing.bitmap.image import load_grey
 from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from shapely import LineString, Point, get_parts, polygonize
 
 from wrapit.config import TracingConfig
-from wrapit.drawing import meetings
 from wrapit.drawing.stage import trace
+from wrapit.drawing.svg import intersections
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.neighbours import Parallels
 from wrapit.drawing.svg.planar import Curve, Planar, planar
@@ -221,7 +221,7 @@ def test_an_end_touches_a_curve_that_stands_still_there():
 
 
 def test_too_many_crossings_are_refused_with_place_and_remedy(monkeypatch, tmp_path):
-    monkeypatch.setattr(meetings, "MOST_CONTACTS", 80)
+    monkeypatch.setattr(intersections, "MOST_CONTACTS", 80)
     rows = "".join(f"M0 {k}H20M{k} 0V20" for k in range(1, 11))
     path = tmp_path / "hatched.svg"
     lines = '<path stroke="black" stroke-width=".1" fill="none" d="{}"/>'
@@ -241,7 +241,7 @@ def test_too_many_crossings_are_refused_with_place_and_remedy(monkeypatch, tmp_p
 def test_lines_that_run_close_beside_each_other_too_often_are_refused(monkeypatch):
     hatching = [through(np.array([[k, 0], [k + 200, 200.0]])) for k in range(60)]
     assert shape(planar(hatching, 0.1, CORNER_RAD))[:3] == (120, 60, 60)
-    monkeypatch.setattr(meetings, "MOST_PAIRS", 1000)
+    monkeypatch.setattr(intersections, "MOST_PAIRS", 1000)
     with pytest.raises(
         DrawingError, match=r"^hatching\.svg: the lines cross, or run close beside each other"
     ):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.drawing.test_planar import through
-from wrapit.drawing import coincident, places
+from wrapit.drawing.svg import duplicates, shared_places
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.intersections import crossings
 from wrapit.drawing.svg.planar import Curve
@@ -60,8 +60,8 @@ def test_steps_that_are_compared_grow_with_steps_and_crossings():
 @pytest.mark.parametrize(("drawn", "most"), [(short_strokes, 0), (long_lines, 400)])
 def test_curves_that_do_not_lie_on_each_other_are_hardly_ever_compared(drawn, most, monkeypatch):
     compared = []
-    spans = coincident._spans
-    monkeypatch.setattr(coincident, "_spans", lambda *args: compared.append(1) or spans(*args))
+    spans = duplicates._spans
+    monkeypatch.setattr(duplicates, "_spans", lambda *args: compared.append(1) or spans(*args))
     without_coincident(drawn(200), 0.5)
     # Of 19,900 pairs of the long lines, 5,000 cross; those at the most acute angles run on each other.
     assert len(compared) <= most
@@ -70,9 +70,9 @@ def test_curves_that_do_not_lie_on_each_other_are_hardly_ever_compared(drawn, mo
 def test_points_in_the_grid_are_compared_with_few_others(monkeypatch):
     compared = []
     sqrt = math.sqrt
-    monkeypatch.setattr(places.math, "sqrt", lambda value: compared.append(1) or sqrt(value))
+    monkeypatch.setattr(shared_places.math, "sqrt", lambda value: compared.append(1) or sqrt(value))
     rng = np.random.default_rng(6)
-    known = places.Places(1.0)
+    known = shared_places.Places(1.0)
     for point in rng.uniform(0, 100, (20_000, 2)):
         known.find(point)
     # Points that are kept lie farther apart than the tolerance: at most 4 in a cell, 4 cells around each.

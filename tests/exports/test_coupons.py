@@ -17,7 +17,7 @@ from wrapit.geometry import Loop
 from wrapit.jig.coupons import clearance_coupon, kerf_coupon
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.model import Contour
-from wrapit.pipeline.coupons import write_printed
+from wrapit.pipeline.coupon_files import write_printed
 
 D = 1.02
 

@@ -16,7 +16,7 @@ from wrapit.drawing.model import Removal
 from wrapit.exports.decomposition_svg import decomposition_svg
 from wrapit.exports.drawing_svg import drawing_svg
 from wrapit.geometry import straight
-from wrapit.geometry.labels import place_labels
+from wrapit.geometry.label_places import place_labels
 
 NS = "{http://www.w3.org/2000/svg}"
 

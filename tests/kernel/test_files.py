@@ -16,8 +16,8 @@ from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
 from wrapit.jig.model import Jig
 from wrapit.jig.printed.stage import build_jig
-from wrapit.kernel.checks import volume_mm3
 from wrapit.kernel.files import FilePart, write_3mf, write_step, write_stl
+from wrapit.kernel.measures import volume_mm3
 from wrapit.kernel.steptext import canonical_step
 from wrapit.kernel.sweeps import round_wire
 

@@ -10,7 +10,7 @@ import pytest
 from tests.jig.metal import arcs, circle, line, scribble, wires_of
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
-from wrapit.kernel.checks import is_valid, size_mm, volume_mm3
+from wrapit.kernel.measures import is_valid, size_mm, volume_mm3
 from wrapit.kernel.sweeps import round_wire, torus
 
 D = 1.0237

@@ -10,9 +10,9 @@ import pytest
 from wrapit.errors import KernelError
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
 from wrapit.geometry.outlines.parallels import as_chain
-from wrapit.kernel.checks import count_solids, is_valid, size_mm, volume_mm3
 from wrapit.kernel.edges import region_face
 from wrapit.kernel.guard import guarded
+from wrapit.kernel.measures import count_solids, is_valid, size_mm, volume_mm3
 from wrapit.kernel.meshes import mesh_of
 from wrapit.kernel.terraces import Terrace, terraced_solid
 

@@ -157,7 +157,7 @@ def coupon(
 ) -> None:
     """Write test pieces: a kerf coupon to cut, a clearance coupon to print."""
     from wrapit.config import Config, load_config
-    from wrapit.pipeline.coupons import write_coupons
+    from wrapit.pipeline.coupon_files import write_coupons
 
     chosen = load_config(config, overrides or ()) if config else Config(drawing="none")
     cut, printed = write_coupons(chosen, output)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.strand_graph import Change
+from wrapit.drawing.changes import Change
 from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
 from wrapit.geometry import BezierChain, FloatArray
 

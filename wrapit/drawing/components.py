@@ -8,10 +8,10 @@ from typing import Literal
 import numpy as np
 
 from wrapit.drawing.assembly import Piece
-from wrapit.drawing.bitmap.strand_graph import Change, Notice
-from wrapit.drawing.svg.shared_places import root
+from wrapit.drawing.changes import Change, Notice
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.bezier import split
+from wrapit.geometry.disjoint_sets import Sets
 
 _NAMED = 8
 
@@ -73,15 +73,12 @@ def _leave_out(result: Connected, group: list[Piece], named: bool) -> None:
 
 def _groups(pieces: list[Piece]) -> list[list[Piece]]:
     """Connected groups of pieces, the longest first."""
-    number = {
-        node: k for k, node in enumerate({node for piece in pieces for node in (piece.start, piece.end)})
-    }
-    parent = list(range(len(number)))
+    together = Sets()
     for piece in pieces:
-        parent[root(parent, number[piece.start])] = root(parent, number[piece.end])
+        together.merge(piece.start, piece.end)
     groups: dict[int, list[Piece]] = {}
     for piece in pieces:
-        groups.setdefault(root(parent, number[piece.start]), []).append(piece)
+        groups.setdefault(together.find(piece.start), []).append(piece)
     if len(groups) == 1:
         return [pieces]
     return sorted(groups.values(), key=lambda group: -sum(piece.curve.length for piece in group))

@@ -20,7 +20,7 @@ from wrapit.exports.svgpage import (
     text,
 )
 from wrapit.geometry import FloatArray
-from wrapit.geometry.labels import Label, place_labels
+from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.svgframe import SvgFrame
 
 INK, BRIDGE, SEGMENT_NUMBER, JUNCTION, REMOVED = "#1c1c1c", "#7a3fa0", "#0b5a8a", "#b02a1a", "#8a5a00"

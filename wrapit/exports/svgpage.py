@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray
-from wrapit.geometry.labels import DIGIT_WIDTH, PADDING, Label
+from wrapit.geometry.label_places import DIGIT_WIDTH, PADDING, Label
 from wrapit.geometry.pieces import piece
 from wrapit.geometry.svgframe import SvgFrame, number
 

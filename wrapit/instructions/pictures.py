@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.geometry import BezierChain
-from wrapit.geometry.labels import Label, place_labels
+from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.pieces import chain_of, piece
 from wrapit.geometry.svgframe import SvgFrame, number
 from wrapit.instructions.model import Guide, Step

@@ -13,8 +13,8 @@ from typing import Any
 
 from wrapit.errors import KernelError
 from wrapit.geometry import BSpline
-from wrapit.kernel.checks import is_valid, volume_mm3
 from wrapit.kernel.guard import guarded
+from wrapit.kernel.measures import is_valid, volume_mm3
 from wrapit.kernel.skins import capped, skin
 from wrapit.kernel.spines import Spine
 

@@ -13,9 +13,9 @@ from typing import Any
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
-from wrapit.kernel.checks import is_valid, volume_mm3
 from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import guarded
+from wrapit.kernel.measures import is_valid, volume_mm3
 
 NESTING_TOLERANCE_MM = 0.01
 # A face that is missing or flipped, or terraces that overlap, show here.

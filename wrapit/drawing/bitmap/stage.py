@@ -15,18 +15,19 @@ from wrapit.drawing.bitmap.cleanup import (
     contract_short,
     drop_crumbs,
     tidy,
+    without_pinholes,
 )
 from wrapit.drawing.bitmap.corners import open_tips, split_corners
 from wrapit.drawing.bitmap.ends import place_end
-from wrapit.drawing.bitmap.frames import drop_frames
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.stage import join_crossings
+from wrapit.drawing.bitmap.paper import drop_frames
 from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_on_table, read_picture
-from wrapit.drawing.bitmap.pinholes import without_pinholes
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
 from wrapit.drawing.bitmap.skeleton import network, thin_within
-from wrapit.drawing.bitmap.strand_graph import Change, Network, Notice
+from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.changes import Change, Notice
 from wrapit.drawing.components import Connected, connect
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding

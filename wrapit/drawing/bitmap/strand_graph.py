@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from wrapit.drawing.changes import Change, Notice
 from wrapit.errors import Level
 from wrapit.geometry import FloatArray
 
@@ -24,27 +25,6 @@ class Strand:
     start: int
     end: int
     points: FloatArray
-
-
-@dataclass(frozen=True)
-class Change:
-    """One thing that clean-up did: what, where (pixels), how long, and why."""
-
-    what: str
-    at_px: tuple[float, float]
-    length_px: float
-    reason: str
-
-
-@dataclass(frozen=True)
-class Notice:
-    """Something to tell the maker, at a place in pixels."""
-
-    level: Level
-    code: str
-    at_px: tuple[float, float]
-    message: str
-    remedy: str = ""
 
 
 @dataclass(eq=False)

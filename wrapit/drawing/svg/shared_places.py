@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from wrapit.geometry import FloatArray
+from wrapit.geometry.disjoint_sets import Sets
 
 
 class Places:
@@ -19,7 +20,7 @@ class Places:
         self._grid: dict[tuple[int, int], list[int]] = {}
         self._at: dict[tuple[float, float], int] = {}
         self._points: list[tuple[float, float]] = []
-        self._parent: list[int] = []
+        self._joined = Sets()
         self._place: dict[int, FloatArray] = {}
         self._settled: set[int] = set()
 
@@ -29,7 +30,7 @@ class Places:
         keep = found[0]
         fresh = self._settled.isdisjoint(found)
         for other in found[1:]:
-            self._parent[other] = keep
+            self._joined.merge(keep, other)
             self._place.pop(other)
         if fresh:
             self._place[keep] = np.asarray(place, dtype=np.float64)
@@ -42,12 +43,11 @@ class Places:
         if known is None:
             known = self._nearest(x, y)
         if known is not None:
-            return root(self._parent, known)
+            return self._joined.find(known)
         number = len(self._points)
         self._points.append((x, y))
         self._at[x, y] = number
         self._grid.setdefault((math.floor(x / self._cell), math.floor(y / self._cell)), []).append(number)
-        self._parent.append(number)
         self._place[number] = np.asarray(point, dtype=np.float64)
         return number
 
@@ -71,11 +71,3 @@ class Places:
                     if far[0] <= reach and (best is None or far < best):
                         best = far
         return None if best is None else best[1]
-
-
-def root(parent: list[int], number: int) -> int:
-    """The number that stands for a set: the end of the way from parent to parent, which gets shorter."""
-    while parent[number] != number:
-        parent[number] = parent[parent[number]]
-        number = parent[number]
-    return number

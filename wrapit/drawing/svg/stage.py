@@ -8,7 +8,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import assemble, placement
-from wrapit.drawing.bitmap.strand_graph import Change
+from wrapit.drawing.changes import Change
 from wrapit.drawing.components import connect
 from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from wrapit.drawing.assembly import Piece
-from wrapit.drawing.svg.shared_places import root
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.disjoint_sets import Sets
 
 # Points along a piece where it is compared with another.
 _COMPARED = 9
@@ -83,23 +83,23 @@ def rejoined(pieces: list[Piece], corner_rad: float) -> list[Piece]:
     for index, piece in enumerate(pieces):
         for node in (piece.start, piece.end):
             at.setdefault(node, []).append(index)
-    parent = list(range(len(pieces)))
+    together = Sets()
     joints: dict[int, tuple[int, int]] = {}
     latest: dict[int, int] = {}
     for node, ends in at.items():
         if len(ends) != 2:
             continue
-        first, second = sorted(root(parent, index) for index in ends)
+        first, second = sorted(together.find(index) for index in ends)
         # The last joint of a closed stroke stays, for a place to begin at.
         if first == second or _turn(pieces, node, ends) > corner_rad:
             continue
-        parent[second] = first
+        together.merge(first, second)
         joints[node] = (ends[0], ends[1])
         latest[first] = node
     return [
         _chained(pieces, joints, latest[index], index) if index in latest else piece
         for index, piece in enumerate(pieces)
-        if parent[index] == index
+        if together.find(index) == index
     ]
 
 

@@ -32,7 +32,7 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
 def _built(part: PlannedJig, config: JigConfig) -> Jig:
     gap = _checked_gap(part, config)
     made = jig_solid(part.plan, part.walls, config)
-    from wrapit.kernel.checks import count_solids, size_mm
+    from wrapit.kernel.measures import count_solids, size_mm
 
     plan = part.plan
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
