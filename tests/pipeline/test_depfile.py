@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import os
 import re
 import subprocess
@@ -13,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from wrapit.errors import ExportError
+from wrapit.pipeline import depfile
 from wrapit.pipeline.depfile import write_depfile
 
 MAKEFILE = "all: $(GOALS)\n-include *.d\n$(GOALS):\n\t@echo built=$@; touch $@\n"
@@ -26,7 +28,8 @@ names = (
     | st.sampled_from(WORDS)
     | st.tuples(st.text(st.sampled_from(HOSTILE), max_size=3), st.sampled_from(HOSTILE)).map("".join)
 ).filter(lambda name: name not in (".", "..") and len(name.encode()) < 200)
-places = st.sampled_from(["", "in/", "in/../in/", "~/", "a b#/"])
+FOLDERS = ("in", "~", "a b#")
+places = st.sampled_from(["", "in/../in/", *(f"{folder}/" for folder in FOLDERS)])
 
 
 def is_member(name: str) -> bool:
@@ -41,7 +44,7 @@ def distinct(files: Iterable[str]) -> list[Path]:
     """
     found = {os.path.normpath(file): Path(file) for file in sorted(files)}
     taken = {re.sub(r"[*?\[\\]", r"\\\g<0>", file) for file in found if re.search(r"[*?\[]", file)}
-    return [path for file, path in found.items() if file not in taken and path.name not in (".", "..")]
+    return [path for file, path in found.items() if file not in taken and file not in (".", *FOLDERS)]
 
 
 class Bench:
@@ -134,6 +137,12 @@ def test_each_hostile_character_in_each_place(bench: Callable[[Sequence[Path]], 
     files = distinct(place + name for place in ("", "in/") for name in found - {"..", ".", "/"})
     assert len(files) > 700
     proved(bench(files))
+
+
+def test_the_examples_hold() -> None:
+    results = doctest.testmod(depfile)
+    assert results.attempted >= 3
+    assert results.failed == 0
 
 
 def test_a_home_of_somebodys_is_not_looked_into(bench: Callable[[Sequence[Path]], Bench]) -> None:

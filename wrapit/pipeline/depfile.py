@@ -85,7 +85,7 @@ def _rules(target: Path, needed: Path) -> list[str]:
 
 
 def _has_name(path: Path) -> bool:
-    """Whether make can name a file: `a(b)` is an archive's member to it, and bytes that aren't UTF-8 are no text."""
+    """Whether make can name a file: `a(b)` is an archive's member, and bytes may be no text."""
     text = _text(path)
     return not (text.endswith(")") and "(" in text) and not re.search("[\ud800-\udfff]", text)
 
