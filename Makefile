@@ -7,10 +7,13 @@ PYTHON ?=
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
-CONFIGS := $(wildcard configs/*.yaml)
-PIECES := $(CONFIGS:configs/%.yaml=build/%)
-SOURCES := $(shell find wrapit -name '*.py')
+# build/NAME for each config; a space in a name (and what else make would stumble upon) gets its backslash.
+PIECES := $(shell for each in configs/*.yaml; do [ ! -e "$$each" ] || echo "$$each"; done \
+  | sed -e 's|^configs/\(.*\)\.yaml$$|build/\1|' -e 's/[[ |;:*?]/\\&/g')
+SOURCES := $(shell find wrapit -name '*.py' -o -name '*.jinja' -o -name '*.css')
 JOBS ?= auto
+# A word as the shell reads it: in quotes.
+quoted = '$(subst ','\'',$(1))'
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -32,7 +35,7 @@ $(READY): $(VENV)/.python pyproject.toml requirements.lock
 	@touch $@
 
 demo: $(READY) ## build the butterfly from its bitmap and say where the files are
-	@$(BIN)/wrapit build configs/butterfly.yaml -o build/butterfly --force
+	@$(BIN)/wrapit build configs/butterfly.yaml -o build/butterfly --force -MF build/.deps/butterfly.d
 	@echo && echo "The butterfly is in build/butterfly; open build/butterfly/guide.html in a browser." \
 	  && ls -1 build/butterfly
 
@@ -43,11 +46,16 @@ all: $(PIECES) ## build every config (use -j)
 build/%: build/%/report.json ; @: ## build one piece: make build/leaf
 
 build/%/report.json: configs/%.yaml $(READY) $(SOURCES)
-	$(BIN)/wrapit build $< -o $(@D) --force -MF build/.deps/$*.d
+	$(BIN)/wrapit build $(call quoted,$<) -o $(call quoted,build/$*) --force -MF $(call quoted,build/.deps/$*.d)
 
 # The report says which files are wrapit's own: make is never to delete it.
 .PRECIOUS: build/%/report.json
--include $(wildcard build/.deps/*.d)
+-include build/.deps/*.d
+
+# What was not made here last may be of another drawing, of other settings or half done, so it is built again.
+$(shell cd build 2>/dev/null && for each in */report.json; do \
+  [ ! "$$each" -nt ".deps/$${each%/report.json}.d" ] || echo "build/$$each"; done \
+  | sed -e 's/[[ :*?%]/\\&/g') .foreign: FORCE
 
 check: lint types imports ## every gate: lint, format, types, import arrows
 
