@@ -98,7 +98,8 @@ def _write_depfile(path: Path, result: Build) -> None:
     from wrapit.pipeline.ownership import REPORT
 
     assert result.folder is not None, "a build has a folder"
-    products = [result.folder / artifact["path"] for artifact in result.report["artifacts"]]
+    names = {a[key] for a in result.report["artifacts"] for key in ("path", "instead_of") if key in a}
+    products = [result.folder / name for name in sorted(names)]
     write_depfile(path, result.folder / REPORT, result.sources, products)
 
 
