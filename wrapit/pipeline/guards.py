@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+import threading
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP")
+_ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
 def lock_on(folder: Path, *, wait: bool) -> int | None:
@@ -38,13 +39,48 @@ def unlock(lock: int | None) -> None:
 
 
 @contextmanager
-def signals_held(names: Sequence[str] = ENDING) -> Iterator[None]:
-    """Signals that end the program wait until the block is done."""
-    if sys.platform == "win32":
+def signals_held() -> Iterator[None]:
+    """Signals that end the program wait until the block is done; so do those to processes started in it.
+
+    Python answers signals in its main thread alone, so elsewhere there is nothing to hold.
+    """
+    if threading.current_thread() is not threading.main_thread():
         yield
         return
-    earlier = signal.pthread_sigmask(signal.SIG_BLOCK, [getattr(signal, name) for name in names])
+    came: list[int] = []
+    earlier = {signum: signal.getsignal(signum) for signum in _ending()}
+    held = [signum for signum, handler in earlier.items() if handler not in (signal.SIG_IGN, None)]
+    mask = _block([])
     try:
+        for signum in held:  # a mask isn't enough: a thread of some library may take the signal
+            signal.signal(signum, lambda which, frame: came.append(which))
+        _block(held)
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, earlier)
+        for signum in held:
+            signal.signal(signum, earlier[signum])
+        _restore(mask)
+        for signum in came:
+            signal.raise_signal(signum)
+
+
+def _block(signals: Iterable[int]) -> set[int]:
+    """Returns those that were blocked before."""
+    if sys.platform == "win32":
+        return set()
+    return {int(signum) for signum in signal.pthread_sigmask(signal.SIG_BLOCK, signals)}
+
+
+def _restore(mask: set[int]) -> None:
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def let_through() -> None:
+    """Signals come again in a process that was started while they were held."""
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ending())
+
+
+def _ending() -> list[int]:
+    return [getattr(signal, name) for name in _ENDING if hasattr(signal, name)]
