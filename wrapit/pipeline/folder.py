@@ -22,6 +22,7 @@ from pathlib import Path
 
 from wrapit.errors import ConfigError, ExportError, Finding
 from wrapit.pipeline.guards import lock_on, signals_held, unlock
+from wrapit.pipeline.moving import move_in, shut_out
 from wrapit.pipeline.ownership import (
     LONGEST_NAME_BYTES,
     REPORT,
@@ -34,6 +35,8 @@ from wrapit.pipeline.ownership import (
 OTHER_FOLDER = "choose another folder with -o"
 # Of longer names a hash tells the rest: with the random part, a name may have 255 bytes.
 _LONGEST_PREFIX_BYTES = 120
+# What a writer couldn't write any more stays free: less than one of its buffers.
+_NO_ROOM_BYTES = 1 << 16
 
 
 def followed(target: Path) -> Path:
@@ -79,7 +82,7 @@ def _others(folder: Path) -> Iterator[Path]:
 def staged(folder: Path) -> Iterator[Path]:
     """A temporary folder for the files of a build, cleared away at the end.
 
-    Raises ExportError when its place can't be written.
+    Raises ExportError when its place can't be written; those of the block name the user's folder.
     """
     made = _missing_parents(folder)
     # Named before it is made: whenever a signal ends this, it is cleared away.
@@ -91,6 +94,8 @@ def staged(folder: Path) -> Iterator[Path]:
         yield partial
     except OSError as error:
         raise _unwritable(error, folder) from error
+    except ExportError as error:
+        raise _as_known(error, partial, folder) from error
     finally:
         with signals_held():
             shutil.rmtree(partial, ignore_errors=True)
@@ -158,42 +163,15 @@ def put_in_place(partial: Path, folder: Path) -> None:
         lock = lock_on(folder, wait=True)
         try:
             _refuse_strangers(partial, folder)
-            _move_in(partial.rename(partial.with_suffix(".ready")), folder)
+            move_in(partial.rename(partial.with_suffix(".ready")), folder)
         finally:
             unlock(lock)
 
 
 def _refuse_strangers(ready: Path, folder: Path) -> None:
-    for path in _shut_out(ready, folder):
+    for path in shut_out(ready, folder):
         problem = "somebody wrote this file meanwhile, so the new one was not put in its place"
         raise ExportError(problem, str(folder / path.name), "move it away and build again")
-
-
-def _shut_out(ready: Path, folder: Path) -> Iterator[Path]:
-    """New files whose places are taken by files that neither report lists as they are."""
-    old, new = listed_files(own_report(folder)), listed_files(own_report(ready))
-    for path in sorted(ready.iterdir()):
-        place = folder / path.name
-        own = path.name == REPORT and own_report(folder) is not None
-        unchanged = is_unchanged(place, [old.get(path.name), new.get(path.name)])
-        if os.path.lexists(place) and not own and not unchanged:
-            yield path
-
-
-def _move_in(ready: Path, folder: Path) -> None:
-    """Each file is the old or the new one at any time; done again after a kill, it goes on where it was.
-
-    The report comes last: until then the old one tells which of the old files are wrapit's.
-    """
-    old, new = listed_files(own_report(folder)), listed_files(own_report(ready))
-    for path in sorted(ready.iterdir()):
-        if path.name != REPORT:
-            path.replace(folder / path.name)
-    for name in sorted(old.keys() - new.keys()):
-        if is_unchanged(folder / name, [old[name]]):
-            (folder / name).unlink()
-    (ready / REPORT).replace(folder / REPORT)
-    ready.rmdir()
 
 
 def _clear_leftovers(folder: Path) -> None:
@@ -234,10 +212,10 @@ def _finish(ready: Path, folder: Path) -> None:
     with signals_held():
         lock = lock_on(folder, wait=True)
         try:
-            for path in list(_shut_out(ready, folder)):
+            for path in list(shut_out(ready, folder)):
                 path.unlink()
             if (ready / REPORT).exists():
-                _move_in(ready, folder)
+                move_in(ready, folder)
         finally:
             unlock(lock)
 
@@ -279,6 +257,18 @@ def _remove_empty(folders: list[Path]) -> None:
 def _unwritable(error: OSError, folder: Path) -> ExportError:
     reason = (error.strerror or str(error)).lower()
     return ExportError(f"can't write here ({reason})", str(folder), f"free space, or {OTHER_FOLDER}")
+
+
+def _as_known(error: ExportError, partial: Path, folder: Path) -> ExportError:
+    """Where the error names a temporary file, the one that it was to become; and a full disk, if it is."""
+    if str(partial) not in error.where:
+        return error
+    where, problem, remedy = error.where.replace(str(partial), str(folder)), error.problem, error.remedy
+    if partial.exists() and shutil.disk_usage(partial).free < _NO_ROOM_BYTES:
+        full = os.strerror(errno.ENOSPC)
+        problem = problem if full in problem else f"{problem} ({full.lower()})"
+        remedy = f"free space, or {OTHER_FOLDER}"
+    return ExportError(problem, where, remedy or OTHER_FOLDER)
 
 
 def _shortened(path: Path) -> str:
