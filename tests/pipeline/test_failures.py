@@ -72,7 +72,6 @@ def _cases(folder: Path) -> dict[str, tuple[int, list[str]]]:
         "config": (2, [*build, "--set", "size=40"]),
         "usage": (2, [*build, "--frobnicate"]),
         "drawing": (3, ["build", str(folder / "empty.yaml")]),
-        "unheld": (3, [*build, "--set", "size=4 mm"]),
     }
 
 
