@@ -28,16 +28,23 @@ class Terminated(BaseException):
 
 def main() -> NoReturn:
     """Runs the command in `sys.argv` and exits."""
-    for name in ("SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), _terminate)
+    for signum in _ending():
+        signal.signal(signum, _terminate)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
     sys.exit(_exit_code(sys.argv[1:]))
 
 
+def _ending() -> list[int]:
+    """Signals that end the program, but those that it was started to ignore, as by nohup."""
+    known = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    return [signum for signum in known if signal.getsignal(signum) is not signal.SIG_IGN]
+
+
 def _terminate(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001  the signature is Python's
+    for each in _ending():
+        signal.signal(each, signal.SIG_IGN)  # clearing away is under way, and isn't to be ended half-way
     raise Terminated(signum)
 
 

@@ -9,19 +9,22 @@ and the next build finishes them.
 from __future__ import annotations
 
 import contextlib
+import errno
+import hashlib
 import os
 import re
 import secrets
 import shutil
-import signal
 import stat
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from wrapit.errors import ConfigError, ExportError, Finding
+from wrapit.pipeline.guards import lock_on, signals_held, unlock
+from wrapit.pipeline.moving import move_in, shut_out
 from wrapit.pipeline.ownership import (
+    LONGEST_NAME_BYTES,
     REPORT,
     is_unchanged,
     listed_files,
@@ -30,10 +33,10 @@ from wrapit.pipeline.ownership import (
 )
 
 OTHER_FOLDER = "choose another folder with -o"
-# Longer names would leave no room for the random part within the 255 bytes that a name may have.
+# Of longer names a hash tells the rest: with the random part, a name may have 255 bytes.
 _LONGEST_PREFIX_BYTES = 120
-_LONGEST_NAME_BYTES = 255
-_HELD = ("SIGINT", "SIGTERM", "SIGHUP")
+# What a writer couldn't write any more stays free: less than one of its buffers.
+_NO_ROOM_BYTES = 1 << 16
 
 
 def followed(target: Path) -> Path:
@@ -44,7 +47,7 @@ def followed(target: Path) -> Path:
     """
     try:
         folder = Path(os.path.realpath(target))
-        if any(len(os.fsencode(part)) > _LONGEST_NAME_BYTES for part in folder.parts):
+        if any(len(os.fsencode(part)) > LONGEST_NAME_BYTES for part in folder.parts):
             raise ConfigError("the folder's name is too long", _shortened(target), OTHER_FOLDER)
         if not stat.S_ISDIR(folder.stat().st_mode):
             raise ConfigError("is a file, not a folder", str(target), OTHER_FOLDER)
@@ -79,7 +82,7 @@ def _others(folder: Path) -> Iterator[Path]:
 def staged(folder: Path) -> Iterator[Path]:
     """A temporary folder for the files of a build, cleared away at the end.
 
-    Raises ExportError when its place can't be written.
+    Raises ExportError when its place can't be written; those of the block name the user's folder.
     """
     made = _missing_parents(folder)
     # Named before it is made: whenever a signal ends this, it is cleared away.
@@ -91,10 +94,12 @@ def staged(folder: Path) -> Iterator[Path]:
         yield partial
     except OSError as error:
         raise _unwritable(error, folder) from error
+    except ExportError as error:
+        raise _as_known(error, partial, folder) from error
     finally:
-        with _signals_held():
+        with signals_held():
             shutil.rmtree(partial, ignore_errors=True)
-            _unlock(lock)
+            unlock(lock)
             _remove_empty(made)
 
 
@@ -102,10 +107,10 @@ def _made_and_locked(partial: Path) -> int | None:
     while True:
         partial.mkdir()
         with contextlib.suppress(FileNotFoundError):
-            lock = _lock(partial, wait=True)
+            lock = lock_on(partial, wait=True)
             if partial.exists():
                 return lock
-            _unlock(lock)
+            unlock(lock)
         # Another build took it for a leftover in the moment before it was locked.
 
 
@@ -147,71 +152,80 @@ def put_in_place(partial: Path, folder: Path) -> None:
 
     Raises ExportError when something of somebody else's appeared in their place meanwhile.
     """
-    with _signals_held():
+    with signals_held():
         if not folder.exists():
-            with contextlib.suppress(FileExistsError):  # another build was faster
+            try:
                 partial.rename(folder)
                 return
-        lock = _lock(folder, wait=True)
+            except OSError as error:
+                if error.errno not in (errno.EEXIST, errno.ENOTEMPTY):
+                    raise  # else another build was faster: its files are replaced like any earlier ones
+        lock = lock_on(folder, wait=True)
         try:
             _refuse_strangers(partial, folder)
-            _move_in(partial.rename(partial.with_suffix(".ready")), folder)
+            move_in(partial.rename(partial.with_suffix(".ready")), folder)
         finally:
-            _unlock(lock)
+            unlock(lock)
 
 
 def _refuse_strangers(ready: Path, folder: Path) -> None:
-    """Raises ExportError where a new file's place is taken by one that neither report lists as it is."""
-    old, new = listed_files(own_report(folder)), listed_files(own_report(ready))
-    for path in sorted(ready.iterdir()):
-        place = folder / path.name
-        own = path.name == REPORT and own_report(folder) is not None
-        if os.path.lexists(place) and not own:
-            if is_unchanged(place, [old.get(path.name), new.get(path.name)]):
-                continue
-            problem = "somebody wrote this file meanwhile, so the new one was not put in its place"
-            raise ExportError(problem, str(place), "move it away and build again")
-
-
-def _move_in(ready: Path, folder: Path) -> None:
-    """Each file is the old or the new one at any time; done again after a kill, it goes on where it was.
-
-    The report comes last: until then the old one tells which of the old files are wrapit's.
-    """
-    old, new = listed_files(own_report(folder)), listed_files(own_report(ready))
-    for path in sorted(ready.iterdir()):
-        if path.name != REPORT:
-            path.replace(folder / path.name)
-    for name in sorted(old.keys() - new.keys()):
-        if is_unchanged(folder / name, [old[name]]):
-            (folder / name).unlink()
-    (ready / REPORT).replace(folder / REPORT)
-    ready.rmdir()
+    for path in shut_out(ready, folder):
+        problem = "somebody wrote this file meanwhile, so the new one was not put in its place"
+        raise ExportError(problem, str(folder / path.name), "move it away and build again")
 
 
 def _clear_leftovers(folder: Path) -> None:
     pattern = _leftover_pattern(folder)
     for place in (folder.parent, folder):
         for path in sorted(place.iterdir()) if place.is_dir() else ():
-            match = pattern.fullmatch(path.name)
-            if match is None or path.is_symlink() or not path.is_dir():
-                continue
-            lock = _lock(path, wait=False)
-            if lock is None:
-                continue  # its build is alive
-            try:
-                if match["state"] == "ready" and folder.is_dir() and own_report(path) is not None:
-                    _refuse_strangers(path, folder)
-                    with _signals_held():
-                        _move_in(path, folder)
-                shutil.rmtree(path, ignore_errors=True)
-            finally:
-                _unlock(lock)
+            if pattern.fullmatch(path.name) and path.is_dir() and not path.is_symlink():
+                _clear(path, folder)
+
+
+def _clear(leftover: Path, folder: Path) -> None:
+    try:
+        lock = lock_on(leftover, wait=False)
+    except FileNotFoundError:
+        return  # its build put it in place since we looked
+    if lock is None:
+        return  # its build is alive
+    try:
+        if leftover.suffix == ".ready" and _was_its_place(leftover, folder):
+            _finish(leftover, folder)
+        shutil.rmtree(leftover, ignore_errors=True)
+    finally:
+        unlock(lock)
+
+
+def _was_its_place(ready: Path, folder: Path) -> bool:
+    """Whether the folder is still the one that these files were being moved into."""
+    if own_report(ready) is None or not folder.is_dir():
+        return False
+    moved = (
+        is_unchanged(folder / name, [digest]) for name, digest in listed_files(own_report(ready)).items()
+    )
+    return own_report(folder) is not None or any(moved) or not any(_others(folder))
+
+
+def _finish(ready: Path, folder: Path) -> None:
+    """Moves in what isn't yet; a file that somebody wrote since stays, and the next build sees it there."""
+    with signals_held():
+        lock = lock_on(folder, wait=True)
+        try:
+            for path in list(shut_out(ready, folder)):
+                path.unlink()
+            if (ready / REPORT).exists():
+                move_in(ready, folder)
+        finally:
+            unlock(lock)
 
 
 def _prefix(folder: Path) -> str:
-    name = folder.name.encode()[:_LONGEST_PREFIX_BYTES].decode(errors="ignore")
-    return f".{name}."
+    name = os.fsencode(folder.name)
+    if len(name) <= _LONGEST_PREFIX_BYTES:
+        return f".{folder.name}."
+    beginning = name[:_LONGEST_PREFIX_BYTES].decode(errors="ignore")
+    return f".{beginning}-{hashlib.sha256(name).hexdigest()[:16]}."
 
 
 def _leftover_pattern(folder: Path) -> re.Pattern[str]:
@@ -225,39 +239,6 @@ def _staging_place(folder: Path) -> Path:
         os.access(parent, os.W_OK) and folder.stat().st_dev == parent.stat().st_dev
     )
     return parent if beside else folder
-
-
-def _lock(folder: Path, *, wait: bool) -> int | None:
-    """A lock on a folder, which ends with the process; None where it is taken and we don't wait."""
-    if sys.platform == "win32":
-        return None  # nothing tells there whether another build lives, so its folder is left to it
-    import fcntl
-
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-    except BlockingIOError:
-        os.close(handle)
-        return None
-    return handle
-
-
-def _unlock(lock: int | None) -> None:
-    if lock is not None:
-        os.close(lock)
-
-
-@contextmanager
-def _signals_held() -> Iterator[None]:
-    """Signals that end the program wait until the block is done."""
-    if sys.platform == "win32":
-        yield
-        return
-    earlier = signal.pthread_sigmask(signal.SIG_BLOCK, [getattr(signal, name) for name in _HELD])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, earlier)
 
 
 def _missing_parents(folder: Path) -> list[Path]:
@@ -276,6 +257,18 @@ def _remove_empty(folders: list[Path]) -> None:
 def _unwritable(error: OSError, folder: Path) -> ExportError:
     reason = (error.strerror or str(error)).lower()
     return ExportError(f"can't write here ({reason})", str(folder), f"free space, or {OTHER_FOLDER}")
+
+
+def _as_known(error: ExportError, partial: Path, folder: Path) -> ExportError:
+    """Where the error names a temporary file, the one that it was to become; and a full disk, if it is."""
+    if str(partial) not in error.where:
+        return error
+    where, problem, remedy = error.where.replace(str(partial), str(folder)), error.problem, error.remedy
+    if partial.exists() and shutil.disk_usage(partial).free < _NO_ROOM_BYTES:
+        full = os.strerror(errno.ENOSPC)
+        problem = problem if full in problem else f"{problem} ({full.lower()})"
+        remedy = f"free space, or {OTHER_FOLDER}"
+    return ExportError(problem, where, remedy or OTHER_FOLDER)
 
 
 def _shortened(path: Path) -> str:

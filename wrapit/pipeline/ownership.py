@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Any, Final
 
 REPORT: Final = "report.json"
 FORMAT: Final = "wrapit-report/1"
+LONGEST_NAME_BYTES: Final = 255
 
 
 @dataclass(frozen=True)
@@ -71,8 +73,12 @@ def listed_files(report: dict[str, Any] | None) -> dict[str, str]:
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name stays in its folder: no separator, no `..`, not empty."""
-    return name not in ("", ".", "..", REPORT) and not set(name) & set("/\\\0")
+    """Whether a name stays in its folder and can be one: no separator, no `..`, not empty, not too long."""
+    try:
+        possible = 0 < len(os.fsencode(name)) <= LONGEST_NAME_BYTES
+    except UnicodeError:
+        return False
+    return possible and name not in (".", "..", REPORT) and not set(name) & set("/\\\0")
 
 
 def is_plain_file(path: Path) -> bool:
@@ -96,7 +102,10 @@ def own_files(folder: Path) -> set[str]:
 
 def is_whole(folder: Path, report: dict[str, Any]) -> bool:
     """Whether every file that a report lists is there as written, and none was renamed without need."""
-    renamed = [a["instead_of"] for a in report.get("artifacts", []) if a.get("instead_of")]
-    return all(
-        is_unchanged(folder / name, [digest]) for name, digest in listed_files(report).items()
-    ) and all((folder / name).exists() for name in renamed)
+    artifacts, listed = report.get("artifacts"), listed_files(report)
+    if not isinstance(artifacts, list) or not listed or len(listed) != len(artifacts):
+        return False  # somebody changed the report
+    renamed = [name for artifact in artifacts if (name := artifact.get("instead_of"))]
+    return all(is_unchanged(folder / name, [digest]) for name, digest in listed.items()) and all(
+        isinstance(name, str) and os.path.lexists(folder / name) for name in renamed
+    )

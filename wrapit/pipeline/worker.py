@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Any, Self, TypeVar
 
 from wrapit.errors import KernelError, WrapItError
+from wrapit.pipeline.guards import let_through, signals_held
 
 T = TypeVar("T")
 
@@ -33,8 +34,14 @@ class Worker:
         self._theirs = theirs
 
     def __enter__(self) -> Self:
-        self._process.start()
-        self._theirs.close()
+        try:
+            _start_tracker()
+            with signals_held():  # an end amid its start would leave it with half an order, and complaining
+                self._process.start()
+                self._theirs.close()
+        except BaseException:
+            self._stop()
+            raise
         return self
 
     def __exit__(
@@ -75,8 +82,17 @@ class Worker:
             self._process.join(2)
             if self._process.is_alive():
                 self._process.kill()
-        self._process.join()
+        if self._process.pid is not None:  # else it was never started
+            self._process.join()
         self._connection.close()
+
+
+def _start_tracker() -> None:
+    """Python's own helper process; started later, it would let signals through to the worker's start."""
+    if sys.platform != "win32":
+        from multiprocessing import resource_tracker
+
+        resource_tracker.ensure_running()
 
 
 def _ended(exit_code: int | None, where: str) -> KernelError:
@@ -101,6 +117,7 @@ def _out_of_memory(where: str) -> KernelError:
 def _serve(connection: Connection, preload: Sequence[str]) -> None:
     _end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
+    let_through()  # they were held at the start
     with Path(os.devnull).open("w") as nowhere:
         os.dup2(nowhere.fileno(), 1)  # the kernel's writers chat on stdout, which belongs to the report
     for module in preload:
