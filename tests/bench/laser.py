@@ -6,11 +6,11 @@ import tempfile
 import time
 from collections import Counter
 from pathlib import Path
-from types import SimpleNamespace
 
 from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
 from wrapit.config import JigConfig, PlateConfig, load_config
-from wrapit.exports.plate_files import write_plate_files
+from wrapit.exports.flat_files import write_flat_files
+from wrapit.jig.sheet.drawings import sheet_drawings
 from wrapit.jig.sheet.stage import build_laser_jig
 from wrapit.wires.model import Wire
 
@@ -47,11 +47,11 @@ def _traced(path: Path) -> tuple[Wire, ...]:
 
 
 def _line(name: str, wires: tuple[Wire, ...], config: PlateConfig) -> None:
-    jigs = SimpleNamespace(jigs=(SimpleNamespace(name="jig", wires=tuple(wire.name for wire in wires)),))
     start = time.perf_counter()
-    laser, findings = build_laser_jig(wires, jigs, JigConfig(), config)
+    laser, findings = build_laser_jig(tuple(wires), JigConfig(), config)
     with tempfile.TemporaryDirectory() as folder:
-        write_plate_files(Path(folder), laser, config)
+        for drawing in sheet_drawings(laser):
+            write_flat_files(Path(folder), drawing, config, ("dxf", "svg"))
     seconds = time.perf_counter() - start
     checks = laser.checks
     codes = Counter(finding.code for finding in findings)

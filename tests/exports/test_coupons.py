@@ -14,9 +14,9 @@ from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import JigError
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Loop
+from wrapit.jig.contours import Contour
 from wrapit.jig.coupons import clearance_coupon, kerf_coupon
 from wrapit.jig.sheet.inlays import polygon_of
-from wrapit.jig.sheet.model import Contour
 from wrapit.pipeline.coupon_files import write_printed
 
 D = 1.02

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 
 import ezdxf
 import ezdxf.path
@@ -18,16 +17,17 @@ from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
 from tests.jig.metal import line, wires_of
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
-from wrapit.exports.plate_files import GAP_MM, sheet_name, write_plate_files
+from wrapit.exports.flat_files import write_flat_files
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.moves import rounded_rectangle
 from wrapit.geometry.pieces import chain_of
+from wrapit.jig.sheet.drawings import GAP_MM, sheet_drawings, sheet_name
 from wrapit.jig.sheet.engraving import wire_numbers
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.model import LaserJig, LaserPart, Placed
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed
-from wrapit.jig.sheet.stage import build_laser_jig, kept_apart
+from wrapit.jig.sheet.stage import build_laser_jig, kept_apart, laser_jig, plan_stack
 from wrapit.wires.model import Wire
 
 JIG = JigConfig()
@@ -39,12 +39,22 @@ PIECES: dict[str, Callable[[], tuple[Wire, ...]]] = {
 }
 
 
+def write_plate(folder: Path, laser: LaserJig, config: PlateConfig) -> None:
+    for drawing in sheet_drawings(laser):
+        write_flat_files(folder, drawing, config, ("dxf", "svg"))
+
+
 def laser_of(
     wires: tuple[Wire, ...], config: PlateConfig, *, split: bool = False
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
     groups = [(wire.name,) for wire in wires] if split else [tuple(wire.name for wire in wires)]
-    jigs = tuple(SimpleNamespace(name=f"jig-{names[0]}", wires=names) for names in groups)
-    return build_laser_jig(wires, SimpleNamespace(jigs=jigs), JIG, config)
+    plans, findings = {}, []
+    for names in groups:
+        mine = tuple(wire for wire in wires if wire.name in names)
+        plans[f"jig-{names[0]}"], more = plan_stack(mine, JIG, config)
+        findings += more
+    laser, more = laser_jig(plans, JIG, config)
+    return laser, (*findings, *more)
 
 
 def read(path: Path) -> dict[str, list[LinearRing]]:
@@ -92,7 +102,7 @@ def cut(
     wires, config = PIECES[name](), PlateConfig.model_construct(**{**PlateConfig().__dict__, **changes})
     laser, findings = laser_of(wires, config)
     folder = tmp_path_factory.mktemp(name)
-    write_plate_files(folder, laser, config)
+    write_plate(folder, laser, config)
     return wires, config, laser, findings, folder
 
 
@@ -343,11 +353,11 @@ def test_bytes_repeat(tmp_path: Path) -> None:
         folder = tmp_path / name
         folder.mkdir()
         config = PlateConfig()
-        write_plate_files(folder, laser_of(hairpin(), config)[0], config)
+        write_plate(folder, laser_of(hairpin(), config)[0], config)
     for path in (tmp_path / "a").iterdir():
         assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes(), path.name
 
 
 def test_no_wires_is_said() -> None:
     with pytest.raises(JigError, match="no wires"):
-        build_laser_jig((), SimpleNamespace(jigs=()), JIG, PlateConfig())
+        build_laser_jig((), JIG, PlateConfig())

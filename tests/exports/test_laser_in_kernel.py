@@ -12,12 +12,13 @@ from ezdxf.math import bulge_to_arc
 
 from tests.exports.test_laser import JIG, PIECES, laser_of
 from wrapit.config import PlateConfig
-from wrapit.exports.plate_files import sheet_name, write_plate_files
+from wrapit.exports.flat_files import write_flat_files
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
 from wrapit.geometry.bspline import BSpline
 from wrapit.geometry.outlines.moves import moved
 from wrapit.geometry.outlines.polygons import loop_area_mm2
 from wrapit.geometry.pieces import chain_of
+from wrapit.jig.sheet.drawings import sheet_drawings, sheet_name
 
 
 def outer_cuts(path: Path) -> list[Loop]:
@@ -63,7 +64,8 @@ def test_walls_assembled_in_the_kernel_stand_at_radius_and_clearance(
 ) -> None:
     wires, config = PIECES[name](), PlateConfig.model_construct(**{**PlateConfig().__dict__, "kerf": kerf_mm})
     laser, _ = laser_of(wires, config)
-    write_plate_files(tmp_path, laser, config)
+    for drawing in sheet_drawings(laser):
+        write_flat_files(tmp_path, drawing, config, ("dxf",))
     chains = [chain_of(wire.centreline) for wire in wires]
     gaps = []
     for sheet in laser.sheets:

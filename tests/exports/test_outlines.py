@@ -30,6 +30,7 @@ from wrapit.geometry.outlines.moves import (
     turns_left,
 )
 from wrapit.geometry.outlines.offsets import offset_region
+from wrapit.jig.contours import FlatDrawing
 from wrapit.jig.sheet.checks import length_mm
 from wrapit.jig.sheet.inlays import moved_outline
 
@@ -139,7 +140,9 @@ def test_arcs_and_lines_keep_to_the_tolerance(seed: int, tolerance: float) -> No
 def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
     laser, _ = laser_of(hairpin(), PlateConfig())
     sheet = laser.sheets[0]
-    root = ET.fromstring(plate_svg(sheet.contours, sheet.width_mm, sheet.height_mm, "lightburn"))
+    root = ET.fromstring(
+        plate_svg(FlatDrawing("plate", "a & b", sheet.contours, sheet.width_mm, sheet.height_mm))
+    )
     assert root.get("width") == f"{sheet.width_mm:g}mm"
     assert root.get("viewBox") == f"0 0 {sheet.width_mm:g} {sheet.height_mm:g}"
     groups = {group.get("id"): group for group in root if group.tag.endswith("}g")}

@@ -17,8 +17,8 @@ from tests.exports.test_preview import PLATE, WALL
 from wrapit.exports.laser_profiles import PROFILES
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
+from wrapit.jig.contours import Contour
 from wrapit.jig.sheet.engraving import engraved_wires, wire_numbers
-from wrapit.jig.sheet.model import Contour
 from wrapit.wires.model import Wire
 
 

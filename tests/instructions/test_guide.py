@@ -16,7 +16,8 @@ from wrapit.instructions.binding_order import assembly_order, binding_length_mm,
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
 from wrapit.instructions.wording import joint_phrase, listed, millimetres, shape_phrase, thickness
-from wrapit.jig.model import JigSet
+from wrapit.jig.made import GuidePage, Handling
+from wrapit.jig.sheet.page import plan_laser_page
 from wrapit.units import awg_diameter_mm
 
 VOID = {"meta", "link", "br", "img", "input", "hr"}
@@ -241,21 +242,20 @@ def test_springback_is_told() -> None:
     straight_wire = replace(wires[1], turns=())
     guide = plan_guide(solution, (bent, straight_wire), GuideConfig(), WireConfig(), name="eye")
     assert guide.sheets[1].overbend == ""
-    overbent = JigSet("per-wire", (), overbent=True)
-    guide = plan_guide(solution, (bent,), GuideConfig(), WireConfig(), name="eye", jigset=overbent)
+    overbent = Handling({}, overbent=True)
+    guide = plan_guide(solution, (bent,), GuideConfig(), WireConfig(), name="eye", handling=overbent)
     assert "let it go" in guide.sheets[0].overbend
 
 
 def test_the_laser_cut_jig_has_its_page() -> None:
-    from types import SimpleNamespace
-
     from wrapit.config import JigConfig, PlateConfig
-    from wrapit.jig.sheet.stage import build_laser_jig
+    from wrapit.jig.sheet.stage import laser_jig, plan_stack
 
     solution, wires = eye()
-    jigs = SimpleNamespace(jigs=(SimpleNamespace(name="jig", wires=("wire-01", "wire-02")),))
-    laser, _ = build_laser_jig(wires, jigs, JigConfig(), PlateConfig())
-    html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", laser=laser)
+    plan, _ = plan_stack(wires, JigConfig(), PlateConfig())
+    laser, _ = laser_jig({"jig": plan}, JigConfig(), PlateConfig())
+    shown = GuidePage("laser", "Glue it", "sheet/page.html.jinja", plan_laser_page(laser))
+    html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", pages=[shown])
     page = Page(html)
     ids = {attributes["id"] for _, attributes in page.tags if "id" in attributes}
     assert {(a["href"] or "")[1:] for tag, a in page.tags if tag == "a"} <= ids
@@ -279,14 +279,11 @@ def test_the_laser_cut_jig_has_its_page() -> None:
 
 
 def test_the_map_of_each_stack_shows_its_own_wires() -> None:
-    from types import SimpleNamespace
-
     from wrapit.config import JigConfig, PlateConfig
-    from wrapit.instructions.laser_page import plan_laser_page
-    from wrapit.jig.sheet.stage import build_laser_jig
+    from wrapit.jig.sheet.stage import laser_jig, plan_stack
 
     _, wires = eye()
-    apart = tuple(SimpleNamespace(name=f"jig-{wire.name}", wires=(wire.name,)) for wire in wires)
-    laser, _ = build_laser_jig(wires, SimpleNamespace(jigs=apart), JigConfig(), PlateConfig())
+    apart = {f"jig-{wire.name}": plan_stack((wire,), JigConfig(), PlateConfig())[0] for wire in wires}
+    laser, _ = laser_jig(apart, JigConfig(), PlateConfig())
     shown = {stack.jig: [colour for _, colour in stack.wires] for stack in plan_laser_page(laser).stacks}
     assert shown == {f"jig-{wire.name}": [wire.colour] for wire in wires}

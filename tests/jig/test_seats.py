@@ -12,6 +12,7 @@ from wrapit.config import GuideConfig, JigConfig, WireConfig
 from wrapit.errors import JigError
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.instructions.plan import plan_guide
+from wrapit.jig.printed.kind import handling
 from wrapit.jig.printed.seats import mirrored_seats
 from wrapit.jig.printed.stage import build_jig
 
@@ -106,7 +107,7 @@ def test_the_guide_tells_of_the_seats() -> None:
     solution = solution_of(drawing_of([(11, 0)], [(0, 0, ring(11))]), [[(0, False)]], closed=True)
     wires = wires_of([circle(11)])
     jigs, _ = build_jig(wires, config(seats=[seat(0, 0, 6)]))
-    guide = plan_guide(solution, wires, GuideConfig(), WireConfig(), name="ring", jigset=jigs)
+    guide = plan_guide(solution, wires, GuideConfig(), WireConfig(), name="ring", handling=handling(jigs))
     assert guide.seats == ("6 mm",)
 
 

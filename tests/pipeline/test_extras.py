@@ -19,7 +19,7 @@ CIRCLE = "M 35 20 A 15 15 0 0 1 5 20 A 15 15 0 0 1 35 20"
 def built(folder: Path, *paths: str, **settings: Any) -> tuple[dict[str, Any], Path]:
     (folder / "piece.svg").write_text(RING.format("".join(STROKE.format(path) for path in paths)))
     config = folder / "piece.yaml"
-    config.write_text(json.dumps({"drawing": "piece.svg", "outputs": ["step", "guide"], **settings}))
+    config.write_text(json.dumps({"drawing": "piece.svg", "outputs": ["step", "html"], **settings}))
     return build(config, folder / "out").report, folder / "out"
 
 
@@ -44,7 +44,7 @@ def test_a_ring_hangs_from_a_jump_ring_and_holds_a_bead(tmp_path: Path) -> None:
 
 def test_the_laser_cut_jig_says_that_it_has_no_seats(tmp_path: Path) -> None:
     seat = {"at": ["15 mm", "15 mm"], "diameter": "8 mm"}
-    report, _ = built(tmp_path, CIRCLE, outputs=["dxf"], jig={"seats": [seat]})
+    report, _ = built(tmp_path, CIRCLE, jigs=["printed", "sheet"], outputs=["dxf"], jig={"seats": [seat]})
     assert "seats-in-print-only" in codes(report)
 
 

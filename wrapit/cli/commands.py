@@ -15,7 +15,7 @@ from wrapit import __version__
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
-    from wrapit.pipeline.stages import Stage
+    from wrapit.pipeline.work import Stage
 
 app = typer.Typer(
     name="wrapit",
@@ -194,7 +194,7 @@ def materials() -> None:
 
 
 def _stage(name: str) -> Stage:
-    from wrapit.pipeline.stages import STAGES
+    from wrapit.pipeline.work import STAGES
 
     for stage in STAGES:
         if stage == name:

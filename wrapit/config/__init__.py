@@ -6,8 +6,9 @@ from wrapit.config.jig import JigConfig, SeatConfig
 from wrapit.config.loading import load_config
 from wrapit.config.locking import lock_text, schema
 from wrapit.config.naming import named_after, safe_name
+from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
-from wrapit.config.root import Config, GuideConfig, WireConfig
+from wrapit.config.root import Config, GuideConfig, JigKind, WireConfig
 from wrapit.config.tracing import TracingConfig
 
 __all__ = [
@@ -16,6 +17,8 @@ __all__ = [
     "DecompositionConfig",
     "GuideConfig",
     "JigConfig",
+    "JigKind",
+    "PegsConfig",
     "PlateConfig",
     "SeatConfig",
     "TracingConfig",

@@ -33,9 +33,6 @@ class SeatConfig(Block):
 class JigConfig(Block):
     """The printed jig (paper, section 5)."""
 
-    kind: Literal["printed"] = "printed"
-    """The jig is made for a 3D printer; the laser-cut one has its own block, `plate`."""
-
     turn_curvature: Annotated[float, curvature("0.001 /mm", "10 /mm", "0.08 /mm")] = 0.08
     """A wire needs a wall where it bends more sharply than this (0.08 /mm is a radius of 12.5 mm)."""
 

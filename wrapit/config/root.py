@@ -11,6 +11,7 @@ from wrapit.config.block import Block
 from wrapit.config.decomposition import DecompositionConfig
 from wrapit.config.jig import JigConfig
 from wrapit.config.naming import LONGEST_NAME, LONGEST_PATH, name_problem, path_problem
+from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
 from wrapit.config.quantities import length, whole, wire_gauge
 from wrapit.config.tracing import TracingConfig
@@ -20,7 +21,8 @@ from wrapit.units import awg_diameter_mm
 NAME_PATTERN: Final = r'^(?![ .-])[^\\/:*?"<>|\x00-\x1f]*(?<![ .])$'
 """For editors, which know no Unicode classes: `naming` says more exactly what a name is."""
 
-Output = Literal["step", "stl", "3mf", "dxf", "guide"]
+JigKind = Literal["printed", "sheet", "pegs"]
+Output = Literal["step", "stl", "3mf", "dxf", "svg", "html"]
 
 
 class WireConfig(Block):
@@ -66,6 +68,7 @@ class Config(Block):
     decomposition: DecompositionConfig = DecompositionConfig()
     jig: JigConfig = JigConfig()
     plate: PlateConfig = PlateConfig()
+    pegs: PegsConfig = PegsConfig()
     guide: GuideConfig = GuideConfig()
     bail: BailConfig | None = None
     """A loop to hang the piece from, `{at: top, diameter: 5 mm}`; none unless given."""
@@ -73,8 +76,11 @@ class Config(Block):
     pair: bool = False
     """Also write the jig and the wires of the mirror image, for a pair of earrings."""
 
-    outputs: tuple[Output, ...] = Field(default=("step", "stl", "3mf", "dxf", "guide"), max_length=5)
-    """Which files to write beside the drawing, the wires and the report."""
+    jigs: tuple[JigKind, ...] = Field(default=("printed", "sheet"), min_length=1, max_length=3)
+    """Which jigs to make: `printed` (a 3D printer's), `sheet` (laser-cut), `pegs` (a board with pegs)."""
+
+    outputs: tuple[Output, ...] = Field(default=("step", "stl", "3mf", "dxf", "svg", "html"), max_length=6)
+    """Which formats to write beside the drawing, the wires and the report; `html` is the guide."""
 
     @field_validator("name")
     @classmethod

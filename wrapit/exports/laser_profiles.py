@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from wrapit.config.plate import ProfileName
-from wrapit.jig.sheet.model import LaserLayer
+from wrapit.jig.contours import Layer
 
 # The order in which a laser has to work: nothing is engraved or cut on a piece that already fell out.
-ORDER: Final[tuple[LaserLayer, ...]] = ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")
+ORDER: Final[tuple[Layer, ...]] = ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Look:
 
 
 BLACK, RED, GREEN, BLUE, CYAN = (0, 0, 0), (255, 0, 0), (0, 255, 0), (0, 0, 255), (0, 255, 255)
-PROFILES: Final[dict[ProfileName, dict[LaserLayer, Look]]] = {
+PROFILES: Final[dict[ProfileName, dict[Layer, Look]]] = {
     "lightburn": {
         "ENGRAVE": Look("ENGRAVE", 7, BLACK),
         "SCORE": Look("SCORE", 5, BLUE),

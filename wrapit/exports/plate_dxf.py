@@ -14,7 +14,7 @@ from wrapit.exports.contour_edges import as_bulges, as_chain, is_circle
 from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
 from wrapit.geometry import Arc, BezierChain, Edge
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
-from wrapit.jig.sheet.model import Contour
+from wrapit.jig.contours import Contour
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace

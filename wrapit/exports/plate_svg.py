@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -10,29 +10,27 @@ from wrapit.config.plate import ProfileName
 from wrapit.exports.laser_profiles import ORDER, PROFILES
 from wrapit.geometry import Loop
 from wrapit.geometry.svgframe import SvgFrame, number
-from wrapit.jig.sheet.model import Contour
+from wrapit.jig.contours import FlatDrawing
 
 HAIRLINE_MM = 0.05
 
 
-def plate_svg(
-    contours: Sequence[Contour], width_mm: float, height_mm: float, profile: ProfileName = "lightburn"
-) -> str:
+def plate_svg(drawing: FlatDrawing, profile: ProfileName = "lightburn") -> str:
     """SVG whose user unit is a millimetre; one group for each kind of work, in the order of working.
 
     Curves are exact cubics, arcs are arcs; nothing is filled.
     """
-    frame = SvgFrame.around(np.zeros(2), np.array([width_mm, height_mm]), 0.0)
+    frame = SvgFrame.around(np.zeros(2), np.array([drawing.width_mm, drawing.height_mm]), 0.0)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" {frame.size} viewBox="{frame.view_box}">',
-        "<title>Laser-cut plate jig</title>",
+        f"<title>{escape(drawing.title)}</title>",
     ]
     looks = PROFILES[profile]
     for layer in ORDER:
         shapes = [
             frame.outline(Loop(contour.edges)) if contour.closed else frame.edges(contour.edges)
-            for contour in contours
+            for contour in drawing.contours
             if contour.layer == layer
         ]
         if shapes:

@@ -14,7 +14,7 @@ from wrapit.geometry import BezierChain, FloatArray
 from wrapit.instructions.binding_order import assembly_order, find_ties
 from wrapit.instructions.model import Guide, Material, Step, Tie, WireSheet
 from wrapit.instructions.wording import bend_at, joint_phrase, listed, millimetres, shape_phrase, thickness
-from wrapit.jig.model import JigSet
+from wrapit.jig.made import Handling
 from wrapit.materials import METALS
 from wrapit.wires.model import Bail, JumpRing, Wire
 
@@ -28,7 +28,7 @@ def plan_guide(
     wire_config: WireConfig,
     *,
     name: str,
-    jigset: JigSet | None = None,
+    handling: Handling | None = None,
     ring: JumpRing | None = None,
 ) -> Guide:
     """The guide for these wires, in their order; ties are lettered, wires numbered from 1."""
@@ -52,8 +52,8 @@ def plan_guide(
                 drawing,
                 ties,
                 wire_config,
-                _jig_of(wire, jigset),
-                overbent=jigset is not None and jigset.overbent,
+                handling.jig_of.get(wire.name, "") if handling is not None else "",
+                overbent=handling is not None and handling.overbent,
             )
             for number, wire in enumerate(wires, start=1)
         ),
@@ -61,13 +61,8 @@ def plan_guide(
         assembly=assembly_order(wires, ties),
         binding_turns=turns,
         ring=ring,
-        seats=_seats(jigset),
+        seats=tuple(map(millimetres, handling.seats_mm)) if handling is not None else (),
     )
-
-
-def _seats(jigset: JigSet | None) -> tuple[str, ...]:
-    jigs = jigset.jigs if jigset is not None else ()
-    return tuple(millimetres(seat.bead_mm) for jig in jigs for seat in jig.plan.seats)
 
 
 def _bounds_mm(drawing: Drawing, wires: Sequence[Wire]) -> tuple[FloatArray, FloatArray]:
@@ -217,9 +212,3 @@ def _overbend(wire: Wire, wire_config: WireConfig, overbent: bool) -> str:
         f"The metal springs back a little: bend a right angle with a radius of {radius_mm:.0f} mm "
         f"about {degrees}° further than you need."
     )
-
-
-def _jig_of(wire: Wire, jigset: JigSet | None) -> str:
-    if jigset is None:
-        return ""
-    return next((jig.name for jig in jigset.jigs if wire.name in jig.wires), "")

@@ -9,8 +9,8 @@ from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Line, Loop, Region
 from wrapit.geometry.outlines.moves import reversed_loop, rounded_rectangle
-from wrapit.jig.sheet.lettering import engraved_text
-from wrapit.jig.sheet.model import Contour
+from wrapit.jig.contours import Contour
+from wrapit.jig.lettering import engraved_text
 
 if TYPE_CHECKING:
     from shapely import LinearRing

@@ -7,21 +7,22 @@ from collections.abc import Iterable, Mapping
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Course
-from wrapit.jig.model import JigPlan, TurnSupport
+from wrapit.jig.model import Pin, TurnSupport
+from wrapit.jig.support import support_by_wire
 
 WEAK = 0.5  # turns with wall along less than this share are named
 
 
 def support_findings(
-    course: Course, plan: JigPlan, support: Iterable[TurnSupport], config: JigConfig
+    course: Course, pins: Iterable[Pin], support: Iterable[TurnSupport], config: JigConfig
 ) -> tuple[Finding, ...]:
     """A finding for each turn or long stretch that is held badly: a pin takes it, or what could be done."""
-    pins = {pin.turn: pin for pin in plan.pins}
+    pin_in = {pin.turn: pin for pin in pins}
     findings = []
     for one in support:
         where = course.place(one.turn)
-        if one.turn in pins:
-            diameter = pins[one.turn].diameter_mm
+        if one.turn in pin_in:
+            diameter = pin_in[one.turn].diameter_mm
             findings.append(
                 Finding(
                     "note",
@@ -54,6 +55,22 @@ def support_findings(
                 )
             )
     return tuple(findings)
+
+
+def unheld_findings(held: Iterable[TurnSupport], config: JigConfig) -> tuple[Finding, ...]:
+    """An error for each wire most of whose turns nothing holds."""
+    return tuple(
+        Finding(
+            "error",
+            "unheld-wire",
+            wire,
+            f"the jig holds {share:.0%} of this wire's turns; the others are left to the hand",
+            "make the piece larger, take thinner wire, or set jig.split to per-wire",
+            severity=1 - share,
+        )
+        for wire, share in sorted(support_by_wire(held).items())
+        if share < config.least_support
+    )
 
 
 def split_finding(shared: Mapping[str, float], jigs: int, wanted: float) -> Finding:

@@ -2,20 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from wrapit.config import JigConfig
+from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 from wrapit.jig.channel import CHANNEL_PAD_MM, Course
+from wrapit.jig.findings import free_finding, split_finding
 from wrapit.jig.holes import hole_obstacles, start_holes
 from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 from wrapit.wires.model import Wire
 
+ONE_JIG = "jig"
+WORTH_A_JIG = 0.1  # support that a badly held wire must gain
 PROBE_STEP_MM = 0.2
 EASE = 0.02  # of support, given up for one jig less
 WORK = 20_000
+
+
+class Planned(Protocol):
+    """A jig planned so far that it is known what it holds."""
+
+    @property
+    def by_wire(self) -> dict[str, float]:
+        """Supported share of each wire's turns."""
+        ...
+
+
+P = TypeVar("P", bound=Planned)
+
+
+def parted(
+    wires: tuple[Wire, ...], config: JigConfig, plan: Callable[[tuple[Wire, ...], str, tuple[Wire, ...]], P]
+) -> tuple[tuple[P, ...], tuple[Finding, ...]]:
+    """One jig for all wires, or several where one would hold a wire badly; and why.
+
+    `plan(wires, name, others)` plans the jig of some wires; `others` are all that are parted over jigs, or
+    none where one jig is for all.
+    """
+    if config.split == "single" or len(wires) == 1:
+        return (plan(wires, ONE_JIG, ()),), ()
+    # A wire without turns and long stretches needs no jig of its own, and its holes take room from others.
+    held = tuple(wire for wire in wires if wire.turns) or wires
+    handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in held)))
+
+    def planned(group: tuple[Wire, ...]) -> P:
+        return plan(group, ONE_JIG if group == held else _name(group), held)
+
+    if config.split == "per-wire" or config.springback == "compensate":
+        return tuple(planned((wire,)) for wire in held), handmade
+    single = plan(wires, ONE_JIG, ())
+    shared = single.by_wire
+    if min(shared.values(), default=1.0) >= config.min_turn_support:
+        return (single,), ()
+    apart = {wire.name: planned((wire,)) for wire in held}
+    alone = {name: share for each in apart.values() for name, share in each.by_wire.items()}
+    weak = [name for name, share in shared.items() if share < config.min_turn_support]
+    if all(alone[name] - shared[name] < WORTH_A_JIG for name in weak):
+        return (single,), ()
+    groups = grouped(held, alone, config)
+    parts = tuple(apart[group[0].name] if len(group) == 1 else planned(group) for group in groups)
+    split_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
+    if all(split_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
+        return (single,), ()
+    said = [split_finding(shared, len(groups), config.min_turn_support)] if len(groups) > 1 else []
+    return parts, (*said, *handmade)
+
+
+def _name(group: tuple[Wire, ...]) -> str:
+    return "jig-" + "-".join([group[0].name, *(wire.name.removeprefix("wire-") for wire in group[1:])])
 
 
 def grouped(wires: Sequence[Wire], alone: Mapping[str, float], config: JigConfig) -> list[tuple[Wire, ...]]:

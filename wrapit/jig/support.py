@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from wrapit.config import JigConfig
+from wrapit.errors import UnheldError
 from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.channel import SIDES, Course
-from wrapit.jig.model import TurnSupport
+from wrapit.jig.model import Pin, TurnSupport
 from wrapit.jig.wall_ground import face_probes
 
 PROBE_STEP_MM = 0.1
@@ -50,6 +53,26 @@ def total_support(support: Iterable[TurnSupport]) -> float:
 def stretch_support(support: Iterable[TurnSupport]) -> float:
     """The share of the length of all long stretches that has a wall on either side; 1 where there is none."""
     return held_share(one for one in support if one.turn.inside == "both")
+
+
+def with_pins(support: Iterable[TurnSupport], pins: Iterable[Pin]) -> tuple[TurnSupport, ...]:
+    """The support of each turn, where a pin in it holds it whole."""
+    pinned = {pin.turn for pin in pins}
+    return tuple(replace(one, share=1.0) if one.turn in pinned else one for one in support)
+
+
+def refuse_unheld(support: Iterable[TurnSupport], config: JigConfig) -> None:
+    """Raises UnheldError when too little of the turns and long stretches is held (`jig.least_support`).
+
+    Both count here, by length: a large flower with three cusps that no wall fits into is held well. Of 177
+    drawings, sizes and gauges measured, those worth making have 0.59 or more, the others 0.21 or less.
+    """
+    held = held_share(support)
+    if held < config.least_support:
+        raise UnheldError(
+            f"walls would hold {held:.0%} of the turns and long stretches, "
+            f"less than jig.least_support ({config.least_support:.0%})"
+        )
 
 
 def support_by_wire(support: Iterable[TurnSupport]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""The files that need no kernel: pictures, the laser-cut jig, the guide, choices."""
+"""The files that need no kernel: pictures, flat drawings, the guide, choices."""
 
 from __future__ import annotations
 
@@ -8,58 +8,51 @@ from pathlib import Path
 from wrapit.config import Config
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
-from wrapit.errors import Finding
-from wrapit.jig.model import JigSet
-from wrapit.jig.sheet.model import LaserJig
+from wrapit.jig.made import Made
 from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
 
 
-def write_previews(
-    folder: Path, wires: Sequence[Wire], laid: Sequence[Wire], jigs: JigSet, suffix: str = ""
-) -> None:
-    """`preview{suffix}.png`: the jig with the wires laid in; the piece and each jig where one isn't all.
+def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
+    """`preview{suffix}.png`: a jig with the wires laid in; the piece and each jig where one isn't all.
 
-    `laid` are the wires as they lie in the jig, overbent perhaps; `wires` as they are in the piece.
+    `wires` are as they are in the piece; in the jig they may be overbent.
     """
     from wrapit.exports.preview_png import write_preview
 
-    first = jigs.jigs[0]
-    if len(first.wires) == len(laid):
-        write_preview(folder / f"preview{suffix}.png", laid, first.walls, first.plate)
-        return
-    write_preview(folder / f"preview{suffix}.png", wires)
-    for jig in jigs.jigs:
-        mine = [wire for wire in laid if wire.name in jig.wires]
-        write_preview(folder / f"preview-{jig.name}{suffix}.png", mine, jig.walls, jig.plate)
+    for view in made.views:
+        laid = wires if view.plate is None else view.wires
+        write_preview(folder / f"{view.stem}{suffix}.png", laid, view.walls, view.plate)
 
 
-def write_plate(
-    folder: Path, wires: Sequence[Wire], jigs: JigSet, config: Config
-) -> tuple[LaserJig, tuple[Finding, ...]]:
-    """`plate.dxf`, `plate.svg`: the laser-cut jig."""
-    from wrapit.exports.plate_files import write_plate_files
-    from wrapit.jig.sheet.stage import build_laser_jig
+def write_drawings(folder: Path, made: Made, config: Config) -> None:
+    """`plate.dxf`, `plate.svg` and so on: a jig's flat drawings."""
+    from wrapit.exports.flat_files import write_flat_files
 
-    laser, findings = build_laser_jig(wires, jigs, config.jig, config.plate)
-    write_plate_files(folder, laser, config.plate)
-    return laser, findings
+    for drawing in made.drawings:
+        write_flat_files(folder, drawing, config.plate, config.outputs)
 
 
 def write_guide(
     folder: Path,
     solution: Solution,
     wires: Sequence[Wire],
-    jigs: JigSet,
-    laser: LaserJig | None,
+    jigs: Sequence[Made],
     ring: JumpRing | None,
     config: Config,
 ) -> None:
-    """`guide.html`."""
+    """`guide.html`; its steps speak of the first jig that holds wires."""
     from wrapit.instructions.stage import write_instructions
 
     page = write_instructions(
-        solution, wires, config.guide, config.wire, name=config.name, jigset=jigs, laser=laser, ring=ring
+        solution,
+        wires,
+        config.guide,
+        config.wire,
+        name=config.name,
+        handling=next((made.handling for made in jigs if made.handling is not None), None),
+        pages=[made.page for made in jigs if made.page is not None],
+        ring=ring,
     )
     write_text(folder / "guide.html", page)
 

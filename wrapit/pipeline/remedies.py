@@ -55,10 +55,10 @@ def smallest_size(does: Callable[[int], bool], size_mm: float) -> int | None:
 
 
 def held_share(config: Config, drawing_path: Path) -> float:
-    """The share of its turns that a piece's jig would hold; 0 where it can't be planned at all."""
+    """The share of its turns that a piece's best jig would hold; 0 where none can be planned at all."""
     from wrapit.decomposition.stage import decompose
     from wrapit.drawing.stage import trace
-    from wrapit.jig.printed.planning import held_by, plan_jigs
+    from wrapit.jig.kinds import JIGS
     from wrapit.wires.springback import overbend_wires
     from wrapit.wires.stage import draw_wires
 
@@ -68,7 +68,7 @@ def held_share(config: Config, drawing_path: Path) -> float:
         wires, _ = draw_wires(solution, config)
         if config.jig.springback == "compensate":
             wires = tuple(bent.wire for bent in overbend_wires(wires, config)[0])
-        return held_by(plan_jigs(wires, config.jig)[0])
+        return max(JIGS[kind].held(wires, config) for kind in config.jigs)
     except WrapItError:
         return 0.0  # what can't be planned is no remedy
 

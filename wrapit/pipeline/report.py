@@ -16,9 +16,6 @@ from wrapit.decomposition.json_file import decomposition_summary
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
-from wrapit.jig.model import Jig, JigSet, TurnSupport
-from wrapit.jig.sheet.model import LaserJig
-from wrapit.jig.support import stretch_support, total_support
 from wrapit.pipeline.ownership import FORMAT, Artifact
 from wrapit.wires.model import JumpRing, Wire
 from wrapit.wires.springback import Overbent
@@ -75,51 +72,6 @@ def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
     ]
 
 
-def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
-    """The `jig` block, over all jigs of the piece."""
-    support = [each for jig in jigs.jigs for each in jig.support]
-    by_wire = {
-        wire.name: round(total_support(each for each in support if each.turn.wire == wire.name), 4)
-        for wire in wires
-    }
-    weakest = min(by_wire, key=lambda name: (by_wire[name], name))
-    distances = [jig.min_wall_to_wire_mm for jig in jigs.jigs if jig.min_wall_to_wire_mm is not None]
-    seats = sum(len(jig.plan.seats) for jig in jigs.jigs)
-    return {
-        "kind": "printed",
-        "split": jigs.split,
-        "jigs": len(jigs.jigs),
-        "solids": sum(jig.solids for jig in jigs.jigs),
-        "valid": all(jig.valid for jig in jigs.jigs),
-        "volume_mm3": round(sum(jig.volume_mm3 for jig in jigs.jigs), 3),
-        "walls": sum(len(jig.walls) for jig in jigs.jigs),
-        "holes": sum(len(jig.plan.holes) for jig in jigs.jigs),
-        **({"seats": seats} if seats else {}),
-        "turn_support": round(total_support(support), 4),
-        "turn_support_by_wire": by_wire,
-        "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
-        "stretch_support": round(stretch_support(support), 4),
-        "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
-        "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
-        "size_mm": [_mm(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
-    }
-
-
-def _turn_numbers(jig: Jig, support: TurnSupport) -> dict[str, Any]:
-    turn = support.turn
-    pin = next((pin.diameter_mm for pin in jig.plan.pins if pin.turn == turn), None)
-    bend = turn.max_curvature_per_mm
-    return {
-        "wire": turn.wire,
-        "from_mm": _mm(turn.start_mm),
-        "to_mm": _mm(turn.end_mm),
-        "inside": turn.inside,
-        "min_radius_mm": _mm(1 / bend) if bend > 0 else None,
-        "support": round(support.share, 4),
-        "pin_mm": pin,
-    }
-
-
 def bail_numbers(wires: Sequence[Wire], ring: JumpRing | None) -> dict[str, Any]:
     """The `bail` block: the loop that a wire's end is bent into, or the jump ring; at its middle or place."""
     if ring is not None:
@@ -147,23 +99,6 @@ def springback_numbers(bent: Sequence[Overbent]) -> list[dict[str, Any]]:
         }
         for each in bent
     ]
-
-
-def plate_numbers(laser: LaserJig) -> dict[str, Any]:
-    """The `plate` block: the laser-cut jig as it is drawn."""
-    checks = laser.checks
-    return {
-        "sheets": len(laser.sheets),
-        "parts": len(laser.parts),
-        "closed_contours": checks.closed_contours,
-        "kerf_mm": laser.kerf_mm,
-        "fit_mm": laser.fit_mm,
-        "cut_length_mm": _mm(checks.cut_length_mm),
-        "engraved_length_mm": _mm(checks.engraved_length_mm),
-        "min_cut_distance_mm": _optional_mm(checks.min_cut_distance_mm),
-        "min_web_mm": _optional_mm(checks.min_web_mm),
-        "wall_height_mm": _mm(laser.wall_height_mm),
-    }
 
 
 def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:

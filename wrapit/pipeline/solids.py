@@ -1,75 +1,51 @@
-"""What runs in the kernel's process: the jig's solids, and the files that need them."""
+"""What runs in the kernel's process: solids, and the files that need them."""
 
 from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from wrapit.config import Config
+from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
-from wrapit.jig.model import Jig, JigSet
+from wrapit.jig.made import Made, Wires
 from wrapit.materials import METALS
-from wrapit.wires.model import JumpRing, Wire
-
-if TYPE_CHECKING:
-    from wrapit.kernel.files import FilePart
+from wrapit.wires.model import JumpRing
 
 PRELOAD = ("wrapit.kernel.files", "wrapit.jig.printed.stage")
 
 
-def make_solids(
-    wires: tuple[Wire, ...],
-    laid: tuple[Wire, ...],
-    ring: JumpRing | None,
-    config: Config,
-    folder: Path | None,
-    suffix: str = "",
-) -> tuple[JigSet, tuple[Finding, ...]]:
-    """The jigs, built and checked; their files in `folder`, `jig{suffix}.step` and so on.
+def make_solids(kind: JigKind, wires: Wires, config: Config, folder: Path | None, suffix: str = "") -> Made:
+    """The jig of a kind with solids, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
 
-    `laid` are the wires as they lie in the jig; a jump ring is in `wires{suffix}.step`.
-    The result holds no kernel shapes.
+    `wires` are as they lie in the jig. The result holds no kernel shapes.
     """
-    from wrapit.jig.printed.stage import build_jig
+    from wrapit.jig.kinds import JIGS
 
-    jigs, findings = build_jig(laid, config.jig)
+    made = JIGS[kind].make(wires, config)
     if folder is not None:
-        findings += _write(jigs, wires, ring, config, folder, suffix)
-    bare = tuple(
-        dataclasses.replace(jig, part=dataclasses.replace(jig.part, solid=None)) for jig in jigs.jigs
+        _write(made, config, folder, suffix)
+    return dataclasses.replace(
+        made, parts=tuple(dataclasses.replace(part, solid=None) for part in made.parts)
     )
-    return dataclasses.replace(jigs, jigs=bare), findings
 
 
-def _write(
-    jigs: JigSet, wires: tuple[Wire, ...], ring: JumpRing | None, config: Config, folder: Path, suffix: str
-) -> tuple[Finding, ...]:
-    from wrapit.kernel.files import write_3mf, write_step, write_stl
+def _write(made: Made, config: Config, folder: Path, suffix: str) -> None:
+    from wrapit.kernel.files import FilePart, write_3mf, write_step, write_stl
 
-    findings: tuple[Finding, ...] = ()
+    parts = [FilePart(part.name, part.solid, part.colour) for part in made.parts]
     if "step" in config.outputs:
-        findings = _write_wires(wires, ring, config, folder / f"wires{suffix}.step")
-        write_step(folder / f"jig{suffix}.step", config.name, [_jig_part(jig) for jig in jigs.jigs])
-    for jig in jigs.jigs:
-        stem = f"{jig.name if len(jigs.jigs) > 1 else 'jig'}{suffix}"
+        write_step(folder / f"jig{suffix}.step", config.name, parts)
+    for part in parts:
+        stem = f"{part.name if len(parts) > 1 else 'jig'}{suffix}"
         if "stl" in config.outputs:
-            write_stl(folder / f"{stem}.stl", [jig.part.solid], config.jig.stl_tolerance)
+            write_stl(folder / f"{stem}.stl", [part.solid], config.jig.stl_tolerance)
         if "3mf" in config.outputs:
-            write_3mf(folder / f"{stem}.3mf", [_jig_part(jig)])
-    return findings
+            write_3mf(folder / f"{stem}.3mf", [part])
 
 
-def _jig_part(jig: Jig) -> FilePart:
-    from wrapit.kernel.files import FilePart
-
-    return FilePart(jig.part.name, jig.part.solid, jig.part.colour)
-
-
-def _write_wires(
-    wires: tuple[Wire, ...], ring: JumpRing | None, config: Config, path: Path
-) -> tuple[Finding, ...]:
-    """Solids and centrelines; a finding for each wire whose solid isn't sound and stays out."""
+def write_wires(wires: Wires, ring: JumpRing | None, config: Config, path: Path) -> tuple[Finding, ...]:
+    """`wires.step`: solids and centrelines; a finding for each wire whose solid isn't sound and stays out."""
     from wrapit.kernel.files import FilePart, write_step
     from wrapit.kernel.sweeps import round_wire
 

@@ -3,80 +3,23 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
-import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final, Literal, get_args
 
-from wrapit.config import Config, lock_text
-from wrapit.decomposition.model import Solution
-from wrapit.drawing.model import Drawing
-from wrapit.errors import Finding
-from wrapit.jig.model import JigSet
+from wrapit.config import lock_text
 from wrapit.pipeline import report as reports
 from wrapit.pipeline.exporting import (
     write_alternatives,
+    write_drawings,
     write_guide,
-    write_plate,
-    write_previews,
+    write_views,
 )
-from wrapit.pipeline.solids import PRELOAD, make_solids
+from wrapit.pipeline.jigs import MIRRORED, make_jigs
+from wrapit.pipeline.solids import PRELOAD
 from wrapit.pipeline.textfile import write_text
+from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import Worker
-from wrapit.wires.model import JumpRing, Wire
-
-Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
-STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
-Progress = Callable[[str], None]
-MIRRORED: Final = "-mirrored"
-ONE_PLATE: Final = Finding(
-    "note",
-    "plate-of-one",
-    "laser-cut jig",
-    "the DXF is for one of the pair",
-    "mirror it in the laser's program for the other one",
-)
-SEATS_PRINTED: Final = Finding(
-    "note",
-    "seats-in-print-only",
-    "laser-cut jig",
-    "only the printed jig has seats for beads and stones",
-    "hold them by hand in the laser-cut one, or print the jig",
-)
-
-
-@dataclass
-class Work:
-    """What the stages have made so far."""
-
-    config: Config
-    drawing_path: Path
-    until: Stage
-    progress: Progress
-    alternatives: int
-    timings_s: dict[str, float] = field(default_factory=dict)
-    findings: list[Finding] = field(default_factory=list)
-    drawing: Drawing | None = None
-    solution: Solution | None = None
-    wires: tuple[Wire, ...] = ()
-    laid: tuple[Wire, ...] = ()
-    """The wires as they lie in the jig: bent further than drawn where it makes up for springback."""
-
-    ring: JumpRing | None = None
-    jigs: JigSet | None = None
-    report: dict[str, Any] = field(default_factory=dict)
-
-    @contextlib.contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        self.progress(name)
-        start = time.perf_counter()
-        yield
-        self.timings_s[name] = round(time.perf_counter() - start, 4)
-
-    def reaches(self, stage: Stage) -> bool:
-        return STAGES.index(self.until) >= STAGES.index(stage)
+from wrapit.wires.mirror import mirrored
+from wrapit.wires.model import Wire
 
 
 def run_stages(work: Work, folder: Path | None) -> None:
@@ -85,18 +28,26 @@ def run_stages(work: Work, folder: Path | None) -> None:
     Raises the WrapItError of the stage that fails.
     """
     with contextlib.ExitStack() as stack:
-        worker = stack.enter_context(Worker(PRELOAD)) if work.reaches("jig") else None
+        worker = stack.enter_context(Worker(PRELOAD)) if _needs_kernel(work) else None
         _trace(work, folder)
         if work.reaches("decomposition"):
             _decompose(work, folder)
         if work.reaches("wires"):
             _draw_wires(work, folder)
-        if worker is not None:
-            _build_jig(work, worker, folder)
+        if work.reaches("jig"):
+            make_jigs(work, worker, folder if work.reaches("exports") else None)
     if work.reaches("exports") and folder is not None:
         _export(work, folder)
     if folder is not None:
         write_text(folder / "config.lock.yaml", lock_text(work.config))
+
+
+def _needs_kernel(work: Work) -> bool:
+    """Whether solids are made: those of a jig, or the wires' own."""
+    from wrapit.jig.kinds import JIGS
+
+    solid = any(JIGS[kind].solid for kind in work.config.jigs)
+    return (solid and work.reaches("jig")) or ("step" in work.config.outputs and work.reaches("exports"))
 
 
 def _trace(work: Work, folder: Path | None) -> None:
@@ -167,53 +118,14 @@ def _laid(work: Work) -> tuple[Wire, ...]:
     return tuple(each.wire for each in bent)
 
 
-def _build_jig(work: Work, worker: Worker, folder: Path | None) -> None:
-    with work.stage("jig"):
-        limit_s = work.config.jig.time_limit or 120 + 60 * len(work.wires)
-        files = folder if work.reaches("exports") else None
-        work.jigs, findings = worker.run(
-            f"{work.config.name}: jig",
-            limit_s,
-            make_solids,
-            work.wires,
-            work.laid,
-            work.ring,
-            work.config,
-            files,
-        )
-        work.findings += findings
-        work.report["jig"] = reports.jig_numbers(work.jigs, work.laid)
-        if work.config.pair:
-            _build_mirrored_jig(work, worker, limit_s, files)
-
-
-def _build_mirrored_jig(work: Work, worker: Worker, limit_s: float, folder: Path | None) -> None:
-    from wrapit.jig.printed.seats import mirrored_seats
-    from wrapit.wires.mirror import mirrored, mirrored_ring
-
-    wires, laid, ring = mirrored(work.wires), mirrored(work.laid), mirrored_ring(work.ring)
-    config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
-    where = f"{config.name}: mirrored jig"
-    jigs, findings = worker.run(where, limit_s, make_solids, wires, laid, ring, config, folder, MIRRORED)
-    work.findings += [dataclasses.replace(f, where=f"mirrored: {f.where}") for f in findings]
-    work.report["jig"]["mirrored"] = reports.jig_numbers(jigs, laid)
-    if folder is not None:
-        write_previews(folder, wires, laid, jigs, MIRRORED)
-        if "dxf" in work.config.outputs:
-            work.findings.append(ONE_PLATE)
-
-
 def _export(work: Work, folder: Path) -> None:
     assert work.solution is not None
-    assert work.jigs is not None
-    config, laser = work.config, None
+    jigs = list(work.made.values())
     with work.stage("exports"):
-        write_previews(folder, work.wires, work.laid, work.jigs)
-        if "dxf" in config.outputs:
-            laser, findings = write_plate(folder, work.laid, work.jigs, config)
-            work.findings += findings
-            if config.jig.seats:
-                work.findings.append(SEATS_PRINTED)
-            work.report["plate"] = reports.plate_numbers(laser)
-        if "guide" in config.outputs:
-            write_guide(folder, work.solution, work.wires, work.jigs, laser, work.ring, config)
+        write_views(folder, work.wires, jigs[0])
+        if work.mirrored is not None:
+            write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)
+        for made in jigs:
+            write_drawings(folder, made, work.config)
+        if "html" in work.config.outputs:
+            write_guide(folder, work.solution, work.wires, jigs, work.ring, work.config)

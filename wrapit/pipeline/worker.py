@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import multiprocessing
 import os
@@ -13,18 +14,16 @@ from collections.abc import Callable, Sequence
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self, TypeVar
+from typing import Any, Self
 
 from wrapit.errors import KernelError, WrapItError
 from wrapit.pipeline.guards import let_through, signals_held
-
-T = TypeVar("T")
 
 
 class Worker:
     """A process that has the kernel loaded; entered early, it loads while other stages run.
 
-    `run` sends it one function of this package with arguments, all picklable.
+    `start` sends it one function of this package with arguments, all picklable.
     """
 
     def __init__(self, preload: Sequence[str] = ()) -> None:
@@ -49,14 +48,18 @@ class Worker:
     ) -> None:
         self._stop()
 
-    def run(self, where: str, timeout_s: float, function: Callable[..., T], *arguments: Any) -> T:
-        """The function's result; its WrapItErrors come through.
+    def start(self, function: Callable[..., Any], *arguments: Any) -> None:
+        """Sends a function; `result` waits for what it returns."""
+        with contextlib.suppress(BrokenPipeError):  # `result` says what became of the process
+            self._connection.send((function, arguments))
 
-        Raises KernelError, naming `where`, when the process crashes or doesn't end in time, ExportError when
-        it couldn't write.
+    def result(self, where: str, timeout_s: float) -> Any:
+        """What the function returned; its WrapItErrors come through.
+
+        Raises KernelError, naming `where`, when the process crashes or doesn't end in time, OSError when it
+        couldn't write.
         """
         try:
-            self._connection.send((function, arguments))
             if not self._connection.poll(timeout_s):
                 self._stop()
                 raise KernelError(

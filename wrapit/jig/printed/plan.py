@@ -8,14 +8,12 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
 from wrapit.jig.channel import Course
-from wrapit.jig.holes import hole_obstacles, hole_rims, start_holes
 from wrapit.jig.model import JigPlan, Label, Plate, Wall
-from wrapit.jig.pins import pin_holes, pin_obstacles
 from wrapit.jig.printed.labels import wire_labels
 from wrapit.jig.printed.plate import plate_outline
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
-from wrapit.jig.wall_ground import wall_polygons
 from wrapit.jig.wall_height import wall_heights
+from wrapit.jig.walls_and_pins import plan_walls
 from wrapit.wires.model import Wire
 
 LABEL_GAP_MM = 0.3
@@ -32,22 +30,15 @@ def plan_jig(
     import shapely
 
     course = Course.of(wires, config)
-    holes = start_holes(course, config)
-    rims = hole_rims(holes)
     seats = seats_of(config)
-    check_holes(seats, rims)
     pockets = seat_obstacles(seats)
-    blocked = hole_obstacles(holes).union(pockets)
-    polygons, dropped = wall_polygons(course, config, blocked)
-    pins = pin_holes(
-        course, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
-    )
-    if pins:
-        blocked = shapely.union_all([blocked, pin_obstacles(pins)])
-        polygons, dropped = wall_polygons(course, config, blocked)
-    heights = wall_heights(course, [polygon for polygon, _ in polygons], config)
+    planned = plan_walls(course, config, pockets)
+    holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
+    check_holes(seats, rims)
+    heights = wall_heights(course, [polygon for polygon, _ in planned.polygons], config)
     walls = tuple(
-        Wall(turns, polygon, height) for (polygon, turns), height in zip(polygons, heights, strict=True)
+        Wall(turns, polygon, height)
+        for (polygon, turns), height in zip(planned.polygons, heights, strict=True)
     )
     covered = shapely.union_all([course.channels, rims, pockets, *(wall.outline for wall in walls)])
     outline, screws = plate_outline(covered, config, name)
@@ -61,7 +52,8 @@ def plan_jig(
             course, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
-    return JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats), (*dropped, *unlabelled)
+    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats)
+    return plan, (*planned.findings, *unlabelled)
 
 
 def _polygon(loop: Any) -> Any:

@@ -6,8 +6,9 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.model import Jig, JigSet, Part
-from wrapit.jig.printed.planning import PlannedJig, plan_jigs, refuse_unheld
+from wrapit.jig.printed.planning import PlannedJig, plan_jigs
 from wrapit.jig.printed.solid import jig_solid
+from wrapit.jig.support import refuse_unheld
 from wrapit.jig.wall_face import CLEARANCE_TOLERANCE_MM
 from wrapit.wires.model import Wire
 
@@ -21,8 +22,8 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     little, KernelError where the kernel fails.
     """
     planned, findings = plan_jigs(wires, config)
-    refuse_unheld(planned, config)
-    refuse_unheld(planned, config)
+    refuse_unheld((one for jig in planned for one in jig.held), config)
+    refuse_unheld((one for jig in planned for one in jig.held), config)
     jigs = tuple(_built(part, config) for part in planned)
     return JigSet(
         "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from wrapit.errors import Finding
 from wrapit.geometry import Arc, BezierChain, Edge, Loop
-from wrapit.jig.sheet.model import Contour, LaserChecks, LaserPart, LaserSheet
+from wrapit.jig.contours import Contour
+from wrapit.jig.sheet.model import LaserChecks, LaserPart, LaserSheet
 
 if TYPE_CHECKING:
     from shapely import LinearRing

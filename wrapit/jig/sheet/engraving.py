@@ -11,9 +11,9 @@ import numpy as np
 from wrapit.geometry import BezierChain, FloatArray, Region
 from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.pieces import chain_of, piece
+from wrapit.jig.contours import Contour
+from wrapit.jig.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.inlays import polygon_of
-from wrapit.jig.sheet.lettering import engraved_text, text_size_mm
-from wrapit.jig.sheet.model import Contour
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:

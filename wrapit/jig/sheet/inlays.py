@@ -10,7 +10,7 @@ from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Line, Loop, Region
 from wrapit.geometry.outlines.moves import oriented, reversed_loop
-from wrapit.jig.sheet.model import Contour
+from wrapit.jig.contours import Contour
 
 if TYPE_CHECKING:
     from shapely import Polygon

@@ -6,43 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from wrapit.geometry import Edge, Region
-from wrapit.geometry.outlines.moves import moved
+from wrapit.geometry import Region
+from wrapit.jig.contours import Contour
 from wrapit.jig.model import Pin
 from wrapit.wires.model import Wire
 
-LaserLayer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 PartRole = Literal["bottom", "pocket plate", "island", "wall"]
-
-
-@dataclass(frozen=True)
-class Contour:
-    """One run of the laser: edges that follow one another, on the layer that says what is done there.
-
-    On the CUT layers contours are closed; engraved lines may be open.
-    """
-
-    layer: LaserLayer
-    edges: tuple[Edge, ...]
-
-    def __post_init__(self) -> None:
-        if not self.edges:
-            raise ValueError("a contour has at least one edge")
-
-    @property
-    def closed(self) -> bool:
-        """Whether the last edge ends where the first starts (within a micrometre)."""
-        (x, y), (u, v) = self.edges[0].start, self.edges[-1].end
-        return bool(abs(x - u) < 1e-3 and abs(y - v) < 1e-3)
-
-    @property
-    def is_cut(self) -> bool:
-        """Whether the laser goes through the sheet here."""
-        return self.layer.startswith("CUT")
-
-    def moved(self, quarters: int, shift: tuple[float, float]) -> Contour:
-        """The contour turned by right angles about the origin, then shifted."""
-        return Contour(self.layer, tuple(moved(edge, quarters, shift) for edge in self.edges))
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,9 @@ import numpy as np
 from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, Line, Loop
-from wrapit.jig.sheet.lettering import engraved_text, text_size_mm
-from wrapit.jig.sheet.model import Contour, LaserPart, LaserSheet, Placed
+from wrapit.jig.contours import Contour
+from wrapit.jig.lettering import engraved_text, text_size_mm
+from wrapit.jig.sheet.model import LaserPart, LaserSheet, Placed
 
 # Packing counts in whole hundredths of a millimetre.
 _UNITS_PER_MM = 100

@@ -11,12 +11,13 @@ from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.moves import circle, oriented, reversed_loop, rounded_rectangle
+from wrapit.jig.contours import Contour
+from wrapit.jig.lettering import engraved_text
 from wrapit.jig.model import Hole
 from wrapit.jig.sheet.engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.sheet.frame import Frame, frame_around
 from wrapit.jig.sheet.inlays import Inlay, Offset, make_inlays, moved_outline, polygon_of
-from wrapit.jig.sheet.lettering import engraved_text
-from wrapit.jig.sheet.model import Contour, LaserPart
+from wrapit.jig.sheet.model import LaserPart
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,15 +12,18 @@ from wrapit.geometry import Region
 from wrapit.geometry.outlines.moves import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Course
+from wrapit.jig.grouping import parted
 from wrapit.jig.holes import hole_rims, start_holes
-from wrapit.jig.model import Hole, JigSet, Pin, Wall
+from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
 from wrapit.jig.pins import pin_holes
 from wrapit.jig.sheet.checks import check_sheets
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed, stack_parts
+from wrapit.jig.support import refuse_unheld, support_by_wire, turn_support, with_pins
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.wall_ground import wall_polygons
+from wrapit.jig.walls_and_pins import plan_walls
 from wrapit.wires.model import Turn, Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate.
@@ -31,50 +34,103 @@ _FACE_MM = 0.05
 
 
 def build_laser_jig(
-    wires: Sequence[Wire], jigset: JigSet, jig_config: JigConfig, config: PlateConfig
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
-    """The laser-cut jig, with as many stacks as the printed one has jigs (same wires in each).
+    """The laser-cut jig of these wires, in one stack or several where one would hold a wire badly.
 
-    Walls are planned anew, as wide as sheet needs. Findings name walls that can't be cut, webs and cuts
-    that are too near, and parts larger than the sheet. Raises JigError when there are no wires.
+    Raises JigError when there are no wires, UnheldError when walls cut from sheet would hold too little of
+    them.
+    """
+    plans, findings = plan_stacks(wires, jig_config, config)
+    refuse_unheld((one for plan in plans.values() for one in plan.held), jig_config)
+    laser, more = laser_jig(plans, jig_config, config)
+    return laser, (*findings, *more)
+
+
+def plan_stacks(
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
+) -> tuple[dict[str, LaserPlan], tuple[Finding, ...]]:
+    """The plan of each stack, by its name; and what the maker should know about them.
+
+    Which wires share a stack is decided with the widths of printed walls: a piece that is made in both ways
+    has the same wires in each. Raises JigError when there are no wires.
     """
     if not wires:
         raise JigError("there are no wires to make a jig for")
-    parts: list[LaserPart] = []
-    pins: list[Pin] = []
+    groups, _ = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
+    plans: dict[str, LaserPlan] = {}
     findings: list[Finding] = []
-    laid = {jig.name: tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigset.jigs}
-    for number, (name, mine) in enumerate(laid.items(), start=1):
-        prefix = f"{number}." if len(jigset.jigs) > 1 else ""
-        plan, more = plan_stack(mine, jig_config, config)
+    for group in groups:
+        plans[group.name], more = plan_stack(group.wires, jig_config, config)
+        findings += more
+    return plans, tuple(findings)
+
+
+def laser_jig(
+    plans: Mapping[str, LaserPlan], jig_config: JigConfig, config: PlateConfig
+) -> tuple[LaserJig, tuple[Finding, ...]]:
+    """The parts of planned stacks, laid out on sheets and measured.
+
+    Findings name walls that can't be cut, webs and cuts that are too near, and parts larger than the sheet.
+    """
+    parts: list[LaserPart] = []
+    findings: list[Finding] = []
+    for number, (name, plan) in enumerate(plans.items(), start=1):
+        prefix = f"{number}." if len(plans) > 1 else ""
         holes = (*plan.holes, *(_hole_for(pin) for pin in plan.pins))
-        stack, faults = stack_parts(name, prefix, mine, plan.walls, holes, jig_config, config, offset_region)
+        stack, faults = stack_parts(
+            name, prefix, plan.wires, plan.walls, holes, jig_config, config, offset_region
+        )
         parts += stack
-        pins += plan.pins
-        findings += [*more, *faults]
+        findings += faults
     sheets, unfit = nest(parts, config)
     checks, faults = check_sheets(parts, sheets, config.kerf)
-    copies = max(copies_needed(wire.layers, wire.diameter_mm, config) for wire in wires)
+    copies = max(
+        copies_needed(wire.layers, wire.diameter_mm, config) for plan in plans.values() for wire in plan.wires
+    )
     jig_model = LaserJig(
         parts=tuple(parts),
-        laid=laid,
+        laid={name: plan.wires for name, plan in plans.items()},
         sheets=sheets,
         kerf_mm=config.kerf,
         fit_mm=config.fit,
         wall_height_mm=copies * config.wall_sheet - config.sheet,
-        pins=tuple(pins),
+        pins=tuple(pin for plan in plans.values() for pin in plan.pins),
         checks=checks,
     )
     return jig_model, (*findings, *_stacked(copies, config), *unfit, *faults)
 
 
 @dataclass(frozen=True, eq=False)
-class LaserPlan:
-    """What one stack is made of: exact wall faces, start holes, pins in turns too tight for a wall."""
+class _Grouped:
+    """Wires that may share a stack, and what walls as wide as printed ones would hold of each."""
 
+    name: str
+    wires: tuple[Wire, ...]
+    by_wire: dict[str, float]
+
+    @staticmethod
+    def of(wires: tuple[Wire, ...], name: str, config: JigConfig) -> _Grouped:
+        import shapely
+
+        course = Course.of(wires, config)
+        walls = plan_walls(course, config, shapely.Polygon()).polygons
+        faces = [wall_face(course, Wall(turns, polygon, 0.0)).region for polygon, turns in walls]
+        return _Grouped(name, wires, support_by_wire(turn_support(course, faces)))
+
+
+@dataclass(frozen=True, eq=False)
+class LaserPlan:
+    """What one stack is made of: exact wall faces, start holes, pins in turns too tight for a wall.
+
+    `held` is the support of each turn, pins counted.
+    """
+
+    wires: tuple[Wire, ...]
     walls: tuple[Region, ...]
     holes: tuple[Hole, ...]
     pins: tuple[Pin, ...]
+    held: tuple[TurnSupport, ...]
 
 
 def plan_stack(
@@ -105,7 +161,8 @@ def plan_stack(
     )
     held = {turn for _, turns in polygons for turn in turns} | {pin.turn for pin in pins}
     loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
-    plan = LaserPlan(tuple(face.region for face in faces), holes, pins)
+    walls = tuple(face.region for face in faces)
+    plan = LaserPlan(wires, walls, holes, pins, with_pins(turn_support(course, walls), pins))
     return plan, (*dropped, *plain_finding(faces, "laser-cut jig"), *loose)
 
 

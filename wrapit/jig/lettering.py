@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wrapit.geometry import FloatArray, Line
-from wrapit.jig.sheet.model import Contour
+from wrapit.jig.contours import Contour
 
 # Capitals of the Hershey font fill three quarters of its full height.
 _CAPITAL = 0.75

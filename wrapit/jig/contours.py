@@ -1,0 +1,52 @@
+"""Flat drawings of a jig at true size: what a laser, a plotter or a pen follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from wrapit.geometry import Edge
+from wrapit.geometry.outlines.moves import moved
+
+Layer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
+
+
+@dataclass(frozen=True)
+class Contour:
+    """One run of the laser: edges that follow one another, on the layer that says what is done there.
+
+    On the CUT layers contours are closed; engraved lines may be open.
+    """
+
+    layer: Layer
+    edges: tuple[Edge, ...]
+
+    def __post_init__(self) -> None:
+        if not self.edges:
+            raise ValueError("a contour has at least one edge")
+
+    @property
+    def closed(self) -> bool:
+        """Whether the last edge ends where the first starts (within a micrometre)."""
+        (x, y), (u, v) = self.edges[0].start, self.edges[-1].end
+        return bool(abs(x - u) < 1e-3 and abs(y - v) < 1e-3)
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the laser goes through the sheet here."""
+        return self.layer.startswith("CUT")
+
+    def moved(self, quarters: int, shift: tuple[float, float]) -> Contour:
+        """The contour turned by right angles about the origin, then shifted."""
+        return Contour(self.layer, tuple(moved(edge, quarters, shift) for edge in self.edges))
+
+
+@dataclass(frozen=True, eq=False)
+class FlatDrawing:
+    """A drawing for one file: its name, what is drawn, its size; the lower left corner is the origin."""
+
+    stem: str
+    title: str
+    contours: tuple[Contour, ...]
+    width_mm: float
+    height_mm: float

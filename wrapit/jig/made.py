@@ -1,0 +1,86 @@
+"""A finished jig of any kind, as the rest of the program knows it: files, numbers, a page of the guide."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from wrapit.config import Config, JigKind
+from wrapit.errors import Finding
+from wrapit.geometry import Region
+from wrapit.jig.contours import FlatDrawing
+from wrapit.jig.model import Part
+from wrapit.wires.model import Wire
+
+Wires = tuple[Wire, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A jig from above with wires laid in; without a plate it is the wires alone. `stem` names the file."""
+
+    stem: str
+    wires: Wires
+    walls: tuple[Region, ...] = ()
+    plate: Region | None = None
+
+
+@dataclass(frozen=True)
+class Handling:
+    """What the steps of the guide say of a jig: in which one each wire is bent, and what else to mind.
+
+    `jig_of` has the jig's name by the wire's; `seats_mm` are the beads that go into seats first.
+    """
+
+    jig_of: Mapping[str, str]
+    overbent: bool = False
+    seats_mm: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class GuidePage:
+    """A page of the guide about a jig: its template, below `wrapit/jig`, and what that shows."""
+
+    anchor: str
+    title: str
+    template: str
+    data: Any
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """A finished jig.
+
+    `block` and `numbers` are its part of the report. `parts` are solids, one a printable body, `drawings`
+    flat files. `views` show it from above, `handling` is None where wires aren't held in start holes.
+    """
+
+    block: str
+    numbers: dict[str, Any]
+    findings: tuple[Finding, ...]
+    parts: tuple[Part, ...] = ()
+    drawings: tuple[FlatDrawing, ...] = ()
+    views: tuple[View, ...] = ()
+    handling: Handling | None = None
+    page: GuidePage | None = None
+
+
+@dataclass(frozen=True)
+class JigMaker:
+    """A kind of jig.
+
+    `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
+    made, UnheldError where it would hold too little. `held` is the share of the turns and long stretches that
+    it would hold, planned only. `solid` says that its parts are kernel solids.
+    """
+
+    kind: JigKind
+    solid: bool
+    make: Callable[[Wires, Config], Made]
+    held: Callable[[Wires, Config], float]
+
+
+def reported(value: float) -> float:
+    """A number as the report gives it."""
+    return round(float(value), 4)

@@ -1,0 +1,60 @@
+"""The printed jig as a kind: solids, their numbers, and how they are seen and handled."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from wrapit.config import Config
+from wrapit.jig.made import Handling, JigMaker, Made, View, Wires
+from wrapit.jig.model import JigSet
+from wrapit.jig.printed.numbers import jig_numbers
+from wrapit.jig.support import held_share
+
+
+def make(wires: Wires, config: Config) -> Made:
+    """The printed jig of a piece, or several; see `JigMaker`. Raises KernelError too."""
+    from wrapit.jig.printed.stage import build_jig
+
+    jigs, findings = build_jig(wires, config.jig)
+    return Made(
+        block="jig",
+        numbers=jig_numbers(jigs, wires),
+        findings=findings,
+        parts=tuple(jig.part for jig in jigs.jigs),
+        views=_views(jigs, wires),
+        handling=handling(jigs),
+    )
+
+
+def held(wires: Wires, config: Config) -> float:
+    """The share of the turns and long stretches that the jig would hold."""
+    from wrapit.jig.printed.planning import plan_jigs
+
+    return held_share(one for jig in plan_jigs(wires, config.jig)[0] for one in jig.held)
+
+
+def handling(jigs: JigSet) -> Handling:
+    """What the guide's steps say of these jigs."""
+    return Handling(
+        jig_of={wire: jig.name for jig in jigs.jigs for wire in jig.wires},
+        overbent=jigs.overbent,
+        seats_mm=tuple(seat.bead_mm for jig in jigs.jigs for seat in jig.plan.seats),
+    )
+
+
+def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
+    """One view where one jig holds all wires; else the piece, and each jig with its own."""
+    first = jigs.jigs[0]
+    if len(first.wires) == len(wires):
+        return (View("preview", wires, first.walls, first.plate),)
+    mine = [tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigs.jigs]
+    return (
+        View("preview", wires),
+        *(
+            View(f"preview-{jig.name}", held, jig.walls, jig.plate)
+            for jig, held in zip(jigs.jigs, mine, strict=True)
+        ),
+    )
+
+
+PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held)

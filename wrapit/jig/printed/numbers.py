@@ -1,0 +1,56 @@
+"""The printed jig's part of the report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from wrapit.jig.made import reported
+from wrapit.jig.model import Jig, JigSet, TurnSupport
+from wrapit.jig.support import stretch_support, total_support
+from wrapit.wires.model import Wire
+
+
+def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
+    """The `jig` block, over all jigs of the piece."""
+    support = [each for jig in jigs.jigs for each in jig.support]
+    by_wire = {
+        wire.name: round(total_support(each for each in support if each.turn.wire == wire.name), 4)
+        for wire in wires
+    }
+    weakest = min(by_wire, key=lambda name: (by_wire[name], name))
+    distances = [jig.min_wall_to_wire_mm for jig in jigs.jigs if jig.min_wall_to_wire_mm is not None]
+    seats = sum(len(jig.plan.seats) for jig in jigs.jigs)
+    return {
+        "kind": "printed",
+        "split": jigs.split,
+        "jigs": len(jigs.jigs),
+        "solids": sum(jig.solids for jig in jigs.jigs),
+        "valid": all(jig.valid for jig in jigs.jigs),
+        "volume_mm3": round(sum(jig.volume_mm3 for jig in jigs.jigs), 3),
+        "walls": sum(len(jig.walls) for jig in jigs.jigs),
+        "holes": sum(len(jig.plan.holes) for jig in jigs.jigs),
+        **({"seats": seats} if seats else {}),
+        "turn_support": round(total_support(support), 4),
+        "turn_support_by_wire": by_wire,
+        "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
+        "stretch_support": round(stretch_support(support), 4),
+        "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
+        "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
+        "size_mm": [reported(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
+    }
+
+
+def _turn_numbers(jig: Jig, support: TurnSupport) -> dict[str, Any]:
+    turn = support.turn
+    pin = next((pin.diameter_mm for pin in jig.plan.pins if pin.turn == turn), None)
+    bend = turn.max_curvature_per_mm
+    return {
+        "wire": turn.wire,
+        "from_mm": reported(turn.start_mm),
+        "to_mm": reported(turn.end_mm),
+        "inside": turn.inside,
+        "min_radius_mm": reported(1 / bend) if bend > 0 else None,
+        "support": round(support.share, 4),
+        "pin_mm": pin,
+    }
