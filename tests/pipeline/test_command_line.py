@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -53,6 +54,8 @@ def test_version_and_help() -> None:
     for command in ("build", "init", "check", "coupon", "schema", "materials"):
         assert command in text
     assert "Exit codes" in text
+    assert wrapit("-h").stdout == text
+    assert wrapit("build", "-h").stdout == wrapit("build", "--help").stdout
 
 
 def test_version_loads_nothing_heavy() -> None:
@@ -178,7 +181,16 @@ def test_init_writes_a_config_that_builds(bee: Path) -> None:
     assert "drawing: ../bee.png" in config.read_text()
     refused(wrapit("init", bee.with_name("bee.png"), "-o", config), 2, "exists already")
     assert wrapit("build", config, "-o", bee.parent / "out", "--until", "wires").returncode == 0
-    refused(wrapit("init", bee.with_name("none.png")), 3, "none.png")
+    refused(wrapit("init", bee.with_name("none.png")), 3, "none.png", "check its path")
+    for folder in ("", ".", "/"):
+        refused(wrapit("init", folder), 3, "no file but a folder")
+
+
+def test_the_command_that_init_proposes_works(bee: Path) -> None:
+    drawing = bee.with_name("bee.png").rename(bee.with_name("-a bee's.png"))
+    told = wrapit("init", f"./{drawing.name}", cwd=bee.parent).stdout
+    arguments = shlex.split(told.partition("build it with: wrapit ")[2])
+    assert wrapit(*arguments, "--until", "drawing", cwd=bee.parent).returncode == 0
 
 
 def test_alternatives_are_drawn_best_first(bee: Path) -> None:

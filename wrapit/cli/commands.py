@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 app = typer.Typer(
     name="wrapit",
     add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     help="Turns a line drawing into wire-wrapped jewellery: wires, a jig that bends them, and the guide.",
@@ -115,9 +117,8 @@ def init(
     from wrapit.errors import ConfigError
     from wrapit.pipeline.textfile import write_whole
 
-    target = output or drawing.with_suffix(".yaml")
-    relative = os.path.relpath(drawing, target.parent)
-    text = propose_config(drawing).replace(f"drawing: {drawing.name}", f"drawing: {relative}", 1)
+    text = propose_config(drawing, output.parent if output is not None else None)
+    target = output if output is not None else drawing.with_suffix(".yaml")
     if os.path.lexists(target):
         raise ConfigError("exists already", str(target), "choose another file with -o")
     try:
@@ -126,7 +127,8 @@ def init(
         raise ConfigError(
             f"can't be written ({error.strerror})", str(target), "choose another file with -o"
         ) from None
-    print(f"written: {target}; build it with: wrapit build {target}")
+    argument = shlex.quote(f"./{target}" if str(target).startswith("-") else str(target))
+    print(f"written: {target}; build it with: wrapit build {argument}")
 
 
 @app.command()
