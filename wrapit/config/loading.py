@@ -20,6 +20,23 @@ from wrapit.units import printable, shortened, shown
 
 LONGEST_OVERRIDE: Final = 10_000
 
+_EXPECTED: Final = {
+    "model_type": "a block of keys",
+    "model_attributes_type": "a block of keys",
+    "dict_type": "a block of keys",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "string_type": "a text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+}
+"""What a value should have been, by the kind of mistake: the library's own words are Python's."""
+
 
 def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     """The config in `path`, with `--set` overrides such as `wire.gauge=20 AWG` applied.
@@ -143,7 +160,7 @@ def _explain(mistake: Mapping[str, Any], keys: Sequence[str | int]) -> tuple[str
         count, bound = context["actual_length"], context.get("max_length", context.get("min_length"))
         bound_is = "most" if kind == "too_long" else "least"
         return f"a list of {count} is too {kind[4:]}", f"give at {bound_is} {bound}"
-    text = str(mistake["msg"])
+    text = f"expected {_EXPECTED[kind]}" if kind in _EXPECTED else str(mistake["msg"])
     problem = f"{text[0].lower()}{text[1:]}, but got {shown(mistake['input'])}"
     return problem, "`wrapit schema` describes every key"
 
