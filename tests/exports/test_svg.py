@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+import time
 import xml.etree.ElementTree as ET
 
 import numpy as np
@@ -15,7 +16,8 @@ from tests.exports.pieces_for_tests import drawing_of, eye
 from wrapit.drawing.model import Removal
 from wrapit.exports.decomposition_svg import decomposition_svg
 from wrapit.exports.drawing_svg import drawing_svg
-from wrapit.geometry import straight
+from wrapit.exports.svgpage import anchors
+from wrapit.geometry import joined, straight
 from wrapit.geometry.labels import place_labels
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -77,6 +79,22 @@ def test_labels_never_overlap(seed: int, count: int) -> None:
     for a, b in itertools.combinations(labels, 2):
         apart = np.abs(np.subtract(a.centre, b.centre)) >= np.add(a.half_size, b.half_size) - 1e-9
         assert apart.any()
+
+
+def test_a_number_is_beside_the_share_of_its_curve() -> None:
+    curve = joined([straight((0, 0), (30, 0)), straight((30, 0), (30, 10))])
+    places = [(20, 0), (16, 0), (24, 0), (12, 0), (28, 0), (8, 0), (30, 2)]
+    assert anchors(curve) == pytest.approx(np.array(places), abs=1e-6)
+
+
+def test_thousands_of_labels_take_seconds() -> None:
+    side = 45
+    places = 4.0 * np.array(list(itertools.product(range(side), range(side))))
+    ink = 0.5 * np.array(list(itertools.product(range(8 * side), range(8 * side))))
+    started = time.process_time()
+    labels = place_labels([(str(index), place[None]) for index, place in enumerate(places)], ink, 1.5)
+    assert len(labels) == side**2
+    assert time.process_time() - started < 20  # about 3; each label against all others and all ink took 100
 
 
 def test_markup_in_a_reason_is_escaped() -> None:

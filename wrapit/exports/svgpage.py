@@ -8,13 +8,15 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.bezier import evaluate
 from wrapit.geometry.labels import Label
-from wrapit.geometry.pieces import piece
 from wrapit.geometry.svgframe import SvgFrame, number
 
 FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 # Where along a curve its number stands, the best place first.
 ANCHOR_SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+# Chords of each Bézier: exact lengths would take drawings of thousands of segments minutes.
+_STEPS = 32
 
 
 def page(frame: SvgFrame, title: str, description: str, body: Iterable[str]) -> str:
@@ -67,7 +69,14 @@ def label_texts(frame: SvgFrame, labels: Sequence[Label], size_mm: float, colour
 
 def anchors(curve: BezierChain) -> FloatArray:
     """Points (m, 2) on the curve where its number may stand, the best first."""
-    return np.array([piece(curve, 0.0, share * curve.length).end for share in ANCHOR_SHARES])
+    points = curve.points
+    places = evaluate(points, np.linspace(0.0, 1.0, _STEPS + 1))
+    steps = np.linalg.norm(np.diff(places, axis=1), axis=2)
+    run = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.interp(np.multiply(ANCHOR_SHARES, run[-1]), run, np.arange(len(run)) / _STEPS)
+    index = np.minimum(at.astype(int), len(points) - 1)
+    pairs = zip(index, at - index, strict=True)
+    return np.array([evaluate(points[i, None], np.array([t]))[0, 0] for i, t in pairs])
 
 
 def label_size_mm(curves: Sequence[BezierChain], low: FloatArray, high: FloatArray) -> float:

@@ -42,11 +42,20 @@ def place_labels(
     `ink` (n, 2) are points to keep clear of; `taken` are labels placed before. Labels never overlap one
     another: candidates lie on growing rings around each anchor, and the rings grow until one is free.
     """
-    placed = list(taken)
+    first = len(taken)
+    boxes = np.empty((first + len(wanted), 4))
+    boxes[:first] = np.array([_box(label) for label in taken]).reshape(-1, 4)
+    sorted_ink = ink[np.argsort(ink[:, 0], kind="stable")]
+    placed: list[Label] = []
     for text, anchors in wanted:
         half = np.array([max(len(text), 1) * DIGIT_WIDTH / 2 + PADDING, 0.5 + PADDING]) * text_mm
-        placed.append(_place(text, anchors, half, ink, placed))
-    return tuple(placed[len(taken) :])
+        placed.append(_place(text, anchors, half, sorted_ink, boxes[: first + len(placed)]))
+        boxes[first + len(placed) - 1] = _box(placed[-1])
+    return tuple(placed)
+
+
+def _box(label: Label) -> tuple[float, float, float, float]:
+    return (*label.centre, *label.half_size)
 
 
 def _place(
@@ -54,26 +63,25 @@ def _place(
     anchors: FloatArray,
     half: FloatArray,
     ink: FloatArray,
-    placed: Sequence[Label],
+    boxes: FloatArray,
 ) -> Label:
+    """`ink` is sorted by x; `boxes` (k, 4) are centres and half sizes of the labels placed before."""
     text_mm = float(half[1]) / (0.5 + PADDING)
-    boxes = np.array([[*label.centre, *label.half_size] for label in placed]).reshape(-1, 4)
     fallback: tuple[int, FloatArray, FloatArray, int] | None = None
     for ring in range(200):
-        for anchor in anchors:
-            # The support of the box in each direction keeps its nearest side at one distance.
-            reach = np.abs(_DIRECTIONS) @ half + text_mm * (0.15 + 0.45 * ring)
-            centres = anchor + _DIRECTIONS * reach[:, None]
-            free = ~_overlaps(centres, half, boxes)
-            if not free.any():
-                continue
-            around = np.abs(ink - anchor).max(axis=1) < float(reach.max() + 2 * half.max())
-            hits = np.where(free, _hits(centres, half, ink[around]), len(ink) + 1)
+        # The support of the box in each direction keeps its nearest side at one distance.
+        reach = np.abs(_DIRECTIONS) @ half + text_mm * (0.15 + 0.45 * ring)
+        centres = (anchors[:, None] + _DIRECTIONS * reach[:, None]).reshape(-1, 2)
+        low, high = centres.min(axis=0) - half, centres.max(axis=0) + half
+        free = ~_overlaps(centres, half, _boxes_within(boxes, low, high))
+        if free.any():
+            hits = np.full(len(centres), len(ink) + 1)
+            hits[free] = _hits(centres[free], half, _ink_within(ink, low, high))
             best = int(np.argmin(hits))
-            if hits[best] == 0:
-                return _label(text, centres[best], half, anchor, ring)
             if fallback is None or hits[best] < fallback[0]:
-                fallback = int(hits[best]), centres[best], anchor, ring
+                fallback = int(hits[best]), centres[best], anchors[best // len(_DIRECTIONS)], ring
+            if hits[best] == 0:
+                return _label(text, fallback[1], half, fallback[2], ring)
         if fallback is not None and ring >= 8:
             return _label(text, fallback[1], half, fallback[2], fallback[3])
     raise ValueError(f"no free place within 200 rings for label {text!r}")
@@ -87,6 +95,17 @@ def _label(text: str, centre: FloatArray, half: FloatArray, anchor: FloatArray, 
         (float(anchor[0]), float(anchor[1])),
         ring >= 2,
     )
+
+
+def _boxes_within(boxes: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    apart = np.abs(boxes[:, :2] - (low + high) / 2) > (high - low) / 2 + boxes[:, 2:]
+    return boxes[~apart.any(axis=1)]
+
+
+def _ink_within(ink: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    first, last = np.searchsorted(ink[:, 0], (low[0], high[0]))
+    strip = ink[first:last]
+    return strip[(strip[:, 1] > low[1]) & (strip[:, 1] < high[1])]
 
 
 def _overlaps(centres: FloatArray, half: FloatArray, boxes: FloatArray) -> BoolArray:
