@@ -58,6 +58,29 @@ def test_version_and_help() -> None:
     assert wrapit("build", "-h").stdout == wrapit("build", "--help").stdout
 
 
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    ("arguments", "code"), [("build bee.yaml --until drawing", 0), ("build none.yaml", 2)]
+)
+def test_closed_streams_change_nothing(bee: Path, arguments: str, code: int, closed: str) -> None:
+    command = f"{shlex.join(WRAPIT)} {arguments} {closed}"
+    environment = {**os.environ, "PYTHONPATH": str(CONFIGS.parent)}
+    run = subprocess.run(
+        ["sh", "-c", command], capture_output=True, text=True, cwd=bee.parent, env=environment, check=False
+    )
+    assert run.returncode == code, run.stderr
+    assert "2>" in closed or len(run.stderr.splitlines()) == (code != 0)
+    assert (bee.parent / "build" / "bee" / "report.json").exists() == (code == 0)
+
+
+def test_coupons_without_a_config_heed_set(tmp_path: Path) -> None:
+    refused(wrapit("coupon", "-o", tmp_path / "made", "--set", "wire.gage=1 mm"), 2, "unknown key", "'gauge'")
+    for gauge in ("0.5 mm", "2 mm"):
+        assert wrapit("coupon", "-o", tmp_path / gauge, "--set", f"wire.gauge={gauge}").returncode == 0
+    thin, thick = ((tmp_path / gauge / "coupon-kerf.dxf").read_bytes() for gauge in ("0.5 mm", "2 mm"))
+    assert thin != thick
+
+
 def test_version_loads_nothing_heavy() -> None:
     code = "import sys, wrapit.cli; print(*sorted(m for m in sys.modules if '.' not in m))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

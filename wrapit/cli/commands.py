@@ -158,10 +158,11 @@ def coupon(
     overrides: Overrides = None,
 ) -> None:
     """Write test pieces: a kerf coupon to cut, a clearance coupon to print."""
-    from wrapit.config import Config, load_config
+    from wrapit.config import load_config
+    from wrapit.config.loading import default_config
     from wrapit.pipeline.coupons import write_coupons
 
-    chosen = load_config(config, overrides or ()) if config else Config(drawing="none")
+    chosen = load_config(config, overrides or ()) if config else default_config(overrides or ())
     cut, printed = write_coupons(chosen, output)
     print(f"cut {cut}: the slot that takes the wire without play tells plate.kerf,")
     print("    the pocket that takes the key tells plate.fit")

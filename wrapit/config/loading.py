@@ -49,11 +49,16 @@ def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     data = _plain(written)
     for override in overrides:
         _apply(data, override)
-    try:
-        config = Config.model_validate(data)
-    except ValidationError as error:
-        raise _first_mistake(error, data, _Source(written, path, overrides)) from None
+    config = _validated(data, _Source(written, path, overrides))
     return config if config.name else config.model_copy(update={"name": named_after(path)[0]})
+
+
+def default_config(overrides: Sequence[str] = ()) -> Config:
+    """The defaults with overrides, for what needs no drawing; raises ConfigError as `load_config` does."""
+    data: dict[str, Any] = {"drawing": "none"}
+    for override in overrides:
+        _apply(data, override)
+    return _validated(data, _Source({}, Path("config"), overrides))
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,13 @@ class _Source:
     written: dict[str, Any]
     path: Path
     overrides: Sequence[str]
+
+
+def _validated(data: dict[str, Any], source: _Source) -> Config:
+    try:
+        return Config.model_validate(data)
+    except ValidationError as error:
+        raise _first_mistake(error, data, source) from None
 
 
 def _apply(data: dict[str, Any], override: str) -> None:
