@@ -73,6 +73,13 @@ def test_closed_streams_change_nothing(bee: Path, arguments: str, code: int, clo
     assert (bee.parent / "build" / "bee" / "report.json").exists() == (code == 0)
 
 
+def test_the_narrowest_margin_makes_sound_jigs(bee: Path) -> None:
+    least = ("--until", "jig", "--set", "jig.margin=0.1 mm", "--set", "outputs=[stl]")
+    run = wrapit("build", bee, "-o", bee.parent / "out", *least)
+    assert run.returncode == 0, run.stderr
+    refused(wrapit("build", bee, "--set", "jig.margin=0 mm"), 2, "0.1 mm")
+
+
 def test_coupons_without_a_config_heed_set(tmp_path: Path) -> None:
     refused(wrapit("coupon", "-o", tmp_path / "made", "--set", "wire.gage=1 mm"), 2, "unknown key", "'gauge'")
     for gauge in ("0.5 mm", "2 mm"):
