@@ -70,3 +70,12 @@ def _numbers(kind: Any, metadata: list[Any], dotted: str, wraps: tuple[str | int
         yield from numeric_keys(kind, f"{dotted}.", wraps)
     else:
         assert kind in (str, bool, type(None)) or origin is Literal, f"{dotted}: what is {kind}?"
+
+
+def every_key(model: type[BaseModel], blocks: str = "") -> Iterator[str]:
+    """All dotted keys of a config, blocks among them."""
+    for name, field in model.model_fields.items():
+        yield f"{blocks}{name}"
+        for kind in (field.annotation, *get_args(field.annotation)):
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                yield from every_key(kind, f"{blocks}{name}.")

@@ -45,7 +45,7 @@ def test_units_become_millimetres(tmp_path: Path) -> None:
         ),
         (GOOD.replace("metal:", "metall:"), ":6:3 wire.metall", "unknown key", "did you mean 'metal'"),
         (GOOD.replace("size:", "sise:"), ":3:1 sise", "unknown key", "did you mean 'size'"),
-        (GOOD + "jig: [1, 2]\n", ":7:1 jig", "valid", "schema"),
+        (GOOD + "jig: [1, 2]\n", ":7:1 jig", "a block of keys", "schema"),
         (GOOD + "bail: {diametre: 5 mm}\n", ":7:8 bail.diametre", "unknown key", "did you mean 'diameter'"),
         (GOOD + "bail: {at: bottom}\n", ":7:8 bail.at", "'bottom' is no place", ""),
         (GOOD + "bail: {at: [3, 4 mm]}\n", ":7:8 bail.at", "has no unit", ""),

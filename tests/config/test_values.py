@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from tests.config.keys import every_key
 from wrapit import units
 from wrapit.config import Config, load_config, lock_text
 from wrapit.config.decomposition import MOST_ITERATIONS, AnnealingConfig
@@ -144,3 +146,22 @@ def test_what_is_shown_is_short_and_printable(text: str) -> None:
     assert units.shown(text).isprintable()
     assert units.printable(text).isprintable()
     assert len(units.shortened(text, 10)) <= 10
+
+
+@pytest.mark.parametrize("key", sorted(every_key(Config)))
+def test_a_value_of_another_kind_is_told_in_plain_words(tmp_path: Path, key: str) -> None:
+    config = tmp_path / "bee.yaml"
+    config.write_text("drawing: bee.png\n")
+    values = ("null", "x", "1.5", "true", "[]", "[[1]]", "{a: b}", ".nan", "[{}]", "9e99", '""')
+    told = [problem for value in values if (problem := refused(config, f"{key}={value}"))]
+    assert told
+    for problem in told:
+        assert not re.search(r"\b(Input|input|instance|tuple|dict\w*|\w+Config|parse|None)\b", problem)
+
+
+def refused(config: Path, override: str) -> str | None:
+    try:
+        load_config(config, [override])
+    except ConfigError as error:
+        return str(error)
+    return None

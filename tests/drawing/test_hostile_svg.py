@@ -224,3 +224,15 @@ VALID = svg(
 @given(data=damaged(VALID))
 def test_damaged_files_are_drawn_or_refused(tmp_path, data):
     check(tmp_path, data)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("far", ["1e308", "1e200", "1e30"])
+@pytest.mark.parametrize(
+    "path", ["M {far} 0 L -{far} 10 L 5 5 Z", "M 0 0 C {far} 0 -{far} 5 9 9 Z", "M 0 -{far} V {far}"]
+)
+def test_coordinates_out_of_all_bounds_are_refused_without_warnings(tmp_path, path, far):
+    file = tmp_path / "far.svg"
+    file.write_bytes(svg(f'<path {STROKE} d="{path.format(far=far)}"/>'))
+    with pytest.raises(DrawingError, match="coordinate"):
+        trace(file, TracingConfig(), 40.0)

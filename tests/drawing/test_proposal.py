@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from tests.conftest import CONFIGS
 from tests.drawing.generated import Points, render
 from wrapit.config import load_config
 from wrapit.drawing.proposal import propose_config
@@ -32,6 +34,32 @@ def test_the_config_loads_and_names_the_drawing(tmp_path):
     assert config.drawing == "my drawing.png"
     assert config.size is not None
     assert 40 <= config.size <= 120
+
+
+@pytest.mark.parametrize(
+    "name", ["bee.png", "my bee.png", "a: b #c.png", "*a.png", "{x}.png", 'it\'s "x".png', "-d.png"]
+)
+@pytest.mark.parametrize("place", [".", "beside", "pic: tures #1/a b", "linked"])
+def test_the_config_names_the_drawing_from_any_folder(tmp_path, place, name):
+    pictures, configs = tmp_path / place, tmp_path / "configs"
+    configs.mkdir()
+    if place == "linked":
+        (tmp_path / "far" / "away").mkdir(parents=True)
+        pictures.symlink_to(tmp_path / "far" / "away")
+    pictures.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(render(grid(2), 8.0, (500, 500))).save(pictures / name)
+    for folder in (configs, pictures):
+        config = folder / "piece.yaml"
+        config.write_text(propose_config(pictures / name, folder), encoding="utf-8")
+        assert (folder / load_config(config).drawing).samefile(pictures / name)
+
+
+@pytest.mark.parametrize("name", ["two\nlines.svg", "half-\udcff.svg", "bell\x07.svg"])
+def test_a_drawing_that_no_config_can_name_is_refused(tmp_path, name):
+    shutil.copy(CONFIGS / "leaf.svg", tmp_path / name)
+    with pytest.raises(DrawingError, match="no path can have") as refused:
+        propose_config(tmp_path / name)
+    assert refused.value.remedy == "rename or move the drawing"
 
 
 def test_denser_drawings_become_larger_pieces(tmp_path):

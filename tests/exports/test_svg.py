@@ -15,7 +15,9 @@ from tests.exports.pieces_for_tests import drawing_of, eye
 from wrapit.drawing.model import Removal
 from wrapit.exports.decomposition_svg import decomposition_svg
 from wrapit.exports.drawing_svg import drawing_svg
-from wrapit.geometry import straight
+from wrapit.exports.svgpage import anchors
+from wrapit.geometry import FloatArray, joined, label_places, straight
+from wrapit.geometry.arrays import IntArray
 from wrapit.geometry.label_places import place_labels
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -77,6 +79,44 @@ def test_labels_never_overlap(seed: int, count: int) -> None:
     for a, b in itertools.combinations(labels, 2):
         apart = np.abs(np.subtract(a.centre, b.centre)) >= np.add(a.half_size, b.half_size) - 1e-9
         assert apart.any()
+
+
+def test_a_number_is_beside_the_share_of_its_curve() -> None:
+    curve = joined([straight((0, 0), (30, 0)), straight((30, 0), (30, 10))])
+    places = [(20, 0), (16, 0), (24, 0), (12, 0), (28, 0), (8, 0), (30, 2)]
+    for quickly in (False, True):
+        assert anchors(curve, quickly=quickly) == pytest.approx(np.array(places), abs=1e-6)
+
+
+def test_labels_look_only_at_what_is_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked_at: list[int] = []
+    hits = label_places._hits
+
+    def counted(centres: FloatArray, half: FloatArray, ink: FloatArray) -> IntArray:
+        looked_at.append(len(ink))
+        return hits(centres, half, ink)
+
+    monkeypatch.setattr(label_places, "_hits", counted)
+    side = 20
+    places = 4.0 * np.array(list(itertools.product(range(side), range(side))))
+    ink = 0.5 * np.array(list(itertools.product(range(8 * side), range(8 * side))))
+    labels = place_labels([(str(index), place[None]) for index, place in enumerate(places)], ink, 1.5)
+    assert len(labels) == side**2
+    assert np.median(looked_at) < 0.05 * len(ink)
+
+
+def test_a_crowded_drawing_tells_numbers_to_the_pointer() -> None:
+    rng = np.random.default_rng(5)
+    points = rng.uniform(0, 60, (24, 2))
+    drawing = drawing_of([straight(points[a], points[b]) for a, b in itertools.combinations(range(24), 2)])
+    root = root_of(drawing_svg(drawing))
+    tips = {title.text for title in root.iter(f"{NS}title")}
+    assert {f"segment {segment.id}" for segment in drawing.segments} <= tips
+    assert {f"junction {junction.id}" for junction in drawing.junctions} <= tips
+    numbers = [text for text in texts(root) if (text.text or "").isdigit()]
+    assert 0 < len(numbers) <= len(drawing.segments) + len(drawing.junctions)
+    boxes = [box(text) for text in numbers]
+    assert not any(collide(a, b) for a, b in itertools.combinations(boxes, 2))
 
 
 def test_markup_in_a_reason_is_escaped() -> None:

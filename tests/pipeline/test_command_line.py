@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -53,6 +54,38 @@ def test_version_and_help() -> None:
     for command in ("build", "init", "check", "coupon", "schema", "materials"):
         assert command in text
     assert "Exit codes" in text
+    assert wrapit("-h").stdout == text
+    assert wrapit("build", "-h").stdout == wrapit("build", "--help").stdout
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    ("arguments", "code"), [("build bee.yaml --until drawing", 0), ("build none.yaml", 2)]
+)
+def test_closed_streams_change_nothing(bee: Path, arguments: str, code: int, closed: str) -> None:
+    command = f"{shlex.join(WRAPIT)} {arguments} {closed}"
+    environment = {**os.environ, "PYTHONPATH": str(CONFIGS.parent)}
+    run = subprocess.run(
+        ["sh", "-c", command], capture_output=True, text=True, cwd=bee.parent, env=environment, check=False
+    )
+    assert run.returncode == code, run.stderr
+    assert "2>" in closed or len(run.stderr.splitlines()) == (code != 0)
+    assert (bee.parent / "build" / "bee" / "report.json").exists() == (code == 0)
+
+
+def test_the_narrowest_margin_makes_sound_jigs(bee: Path) -> None:
+    least = ("--until", "jig", "--set", "jig.margin=0.1 mm", "--set", "outputs=[stl]")
+    run = wrapit("build", bee, "-o", bee.parent / "out", *least)
+    assert run.returncode == 0, run.stderr
+    refused(wrapit("build", bee, "--set", "jig.margin=0 mm"), 2, "0.1 mm")
+
+
+def test_coupons_without_a_config_heed_set(tmp_path: Path) -> None:
+    refused(wrapit("coupon", "-o", tmp_path / "made", "--set", "wire.gage=1 mm"), 2, "unknown key", "'gauge'")
+    for gauge in ("0.5 mm", "2 mm"):
+        assert wrapit("coupon", "-o", tmp_path / gauge, "--set", f"wire.gauge={gauge}").returncode == 0
+    thin, thick = ((tmp_path / gauge / "coupon-kerf.dxf").read_bytes() for gauge in ("0.5 mm", "2 mm"))
+    assert thin != thick
 
 
 def test_version_loads_nothing_heavy() -> None:
@@ -178,7 +211,16 @@ def test_init_writes_a_config_that_builds(bee: Path) -> None:
     assert "drawing: ../bee.png" in config.read_text()
     refused(wrapit("init", bee.with_name("bee.png"), "-o", config), 2, "exists already")
     assert wrapit("build", config, "-o", bee.parent / "out", "--until", "wires").returncode == 0
-    refused(wrapit("init", bee.with_name("none.png")), 3, "none.png")
+    refused(wrapit("init", bee.with_name("none.png")), 3, "none.png", "check its path")
+    for folder in ("", ".", "/"):
+        refused(wrapit("init", folder), 3, "no file but a folder")
+
+
+def test_the_command_that_init_proposes_works(bee: Path) -> None:
+    drawing = bee.with_name("bee.png").rename(bee.with_name("-a bee's.png"))
+    told = wrapit("init", f"./{drawing.name}", cwd=bee.parent).stdout
+    arguments = shlex.split(told.partition("build it with: wrapit ")[2])
+    assert wrapit(*arguments, "--until", "drawing", cwd=bee.parent).returncode == 0
 
 
 def test_alternatives_are_drawn_best_first(bee: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 app = typer.Typer(
     name="wrapit",
     add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     help="Turns a line drawing into wire-wrapped jewellery: wires, a jig that bends them, and the guide.",
@@ -116,9 +118,8 @@ def init(
     from wrapit.errors import ConfigError
     from wrapit.pipeline.textfile import write_whole
 
-    target = output or drawing.with_suffix(".yaml")
-    relative = os.path.relpath(drawing, target.parent)
-    text = propose_config(drawing).replace(f"drawing: {drawing.name}", f"drawing: {relative}", 1)
+    text = propose_config(drawing, output.parent if output is not None else None)
+    target = output if output is not None else drawing.with_suffix(".yaml")
     if os.path.lexists(target):
         raise ConfigError("exists already", str(target), "choose another file with -o")
     try:
@@ -127,7 +128,8 @@ def init(
         raise ConfigError(
             f"can't be written ({error.strerror})", str(target), "choose another file with -o"
         ) from None
-    print(f"written: {target}; build it with: wrapit build {target}")
+    argument = shlex.quote(f"./{target}" if str(target).startswith("-") else str(target))
+    print(f"written: {target}; build it with: wrapit build {argument}")
 
 
 @app.command()
@@ -157,10 +159,11 @@ def coupon(
     overrides: Overrides = None,
 ) -> None:
     """Write test pieces: a kerf coupon to cut, a clearance coupon to print."""
-    from wrapit.config import Config, load_config
+    from wrapit.config import load_config
+    from wrapit.config.loading import default_config
     from wrapit.pipeline.coupon_files import write_coupons
 
-    chosen = load_config(config, overrides or ()) if config else Config(drawing="none")
+    chosen = load_config(config, overrides or ()) if config else default_config(overrides or ())
     cut, printed = write_coupons(chosen, output)
     print(f"cut {cut}: the slot that takes the wire without play tells plate.kerf,")
     print("    the pocket that takes the key tells plate.fit")

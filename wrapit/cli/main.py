@@ -30,6 +30,7 @@ def main() -> NoReturn:
     """Runs the command in `sys.argv` and exits."""
     for signum in _ending():
         signal.signal(signum, _terminate)
+    _replace_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
@@ -40,6 +41,23 @@ def _ending() -> list[int]:
     """Signals that end the program, but those that it was started to ignore, as by nohup."""
     known = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     return [signum for signum in known if signal.getsignal(signum) is not signal.SIG_IGN]
+
+
+def _replace_closed_streams() -> None:
+    """What a shell closed (`>&-`) is read from and written to nowhere.
+
+    Left closed, its number would be given to the next file that is opened, and what libraries print would
+    end up in that.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest free number, which is this one
+    if sys.stdout is None:
+        sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115  lives as long as the program
+    if sys.stderr is None:
+        sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115  lives as long as the program
 
 
 def _terminate(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001  the signature is Python's

@@ -80,8 +80,8 @@ class JigConfig(Block):
     base_thickness: Annotated[float, length("0.2 mm", "100 mm", "3 mm")] = 3.0
     """Thickness of the plate."""
 
-    margin: Annotated[float, length("0 mm", "200 mm", "5 mm")] = 5.0
-    """Plate around the walls and wires."""
+    margin: Annotated[float, length("0.1 mm", "200 mm", "5 mm")] = 5.0
+    """Plate around the walls and wires; without any, walls end on its edge and the solid is not sound."""
 
     corner_radius: Annotated[float, length("0 mm", "200 mm", "3 mm")] = 3.0
     """Rounding of the plate's corners."""

@@ -20,6 +20,23 @@ from wrapit.units import printable, shortened, shown
 
 LONGEST_OVERRIDE: Final = 10_000
 
+_EXPECTED: Final = {
+    "model_type": "a block of keys",
+    "model_attributes_type": "a block of keys",
+    "dict_type": "a block of keys",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "string_type": "a text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+}
+"""What a value should have been, by the kind of mistake: the library's own words are Python's."""
+
 
 def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     """The config in `path`, with `--set` overrides such as `wire.gauge=20 AWG` applied.
@@ -32,11 +49,16 @@ def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
     data = _plain(written)
     for override in overrides:
         _apply(data, override)
-    try:
-        config = Config.model_validate(data)
-    except ValidationError as error:
-        raise _first_mistake(error, data, _Source(written, path, overrides)) from None
+    config = _validated(data, _Source(written, path, overrides))
     return config if config.name else config.model_copy(update={"name": named_after(path)[0]})
+
+
+def default_config(overrides: Sequence[str] = ()) -> Config:
+    """The defaults with overrides, for what needs no drawing; raises ConfigError as `load_config` does."""
+    data: dict[str, Any] = {"drawing": "none"}
+    for override in overrides:
+        _apply(data, override)
+    return _validated(data, _Source({}, Path("config"), overrides))
 
 
 @dataclass(frozen=True)
@@ -46,6 +68,13 @@ class _Source:
     written: dict[str, Any]
     path: Path
     overrides: Sequence[str]
+
+
+def _validated(data: dict[str, Any], source: _Source) -> Config:
+    try:
+        return Config.model_validate(data)
+    except ValidationError as error:
+        raise _first_mistake(error, data, source) from None
 
 
 def _apply(data: dict[str, Any], override: str) -> None:
@@ -143,7 +172,7 @@ def _explain(mistake: Mapping[str, Any], keys: Sequence[str | int]) -> tuple[str
         count, bound = context["actual_length"], context.get("max_length", context.get("min_length"))
         bound_is = "most" if kind == "too_long" else "least"
         return f"a list of {count} is too {kind[4:]}", f"give at {bound_is} {bound}"
-    text = str(mistake["msg"])
+    text = f"expected {_EXPECTED[kind]}" if kind in _EXPECTED else str(mistake["msg"])
     problem = f"{text[0].lower()}{text[1:]}, but got {shown(mistake['input'])}"
     return problem, "`wrapit schema` describes every key"
 

@@ -29,7 +29,7 @@ def load_json(path: Path) -> object:
         text = data.decode(json.detect_encoding(data))
         return json.loads(text, parse_constant=_refuse_word, parse_int=_integer)
     except FileNotFoundError:
-        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config") from None
+        raise DrawingError("no such drawing", str(path), "check its path") from None
     except json.JSONDecodeError as error:
         raise DrawingError(
             f"not valid JSON: {error.msg.lower()}",

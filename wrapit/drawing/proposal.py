@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 
 from wrapit.config import TracingConfig
+from wrapit.config.naming import path_problem
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
+from wrapit.errors import DrawingError
 from wrapit.units import awg_diameter_mm
 
 _TRIAL_MM = 50.0
@@ -21,12 +24,15 @@ _BOLDEST = 0.03
 _ROOM = 6.0
 
 
-def propose_config(path: Path) -> str:
+def propose_config(path: Path, folder: Path | None = None) -> str:
     """The text of a commented config for a drawing, with size and gauge proposed.
 
+    The config is to lie in `folder`, beside the drawing unless given, and names the drawing from there.
+
     The gauge follows the stroke's share of the drawing; the size leaves six wire diameters between
-    neighbouring junctions. Raises DrawingError where the drawing can't be traced.
+    neighbouring junctions. Raises DrawingError where the drawing can't be traced, or no config can name it.
     """
+    named = _seen_from(folder if folder is not None else path.parent, path)
     tracing = TracingConfig.model_validate({"shortest_segment": "0 mm"})
     own_size = path.suffix.lower() == ".json"
     drawing, findings = trace(path, tracing, None if own_size else _TRIAL_MM)
@@ -39,7 +45,7 @@ def propose_config(path: Path) -> str:
         f"({drawing.odd_junctions} odd, so at least {max(1, drawing.odd_junctions // 2)} wires); "
         f"{drawing.length_mm * size_mm / across_mm / 10:.0f} cm of wire at this size.",
         *(f"# {finding.level}: {finding.where}: {finding.message}" for finding in findings),
-        f"drawing: {_quoted(path.name)}",
+        f"drawing: {_quoted(named)}",
         "",
         "# Longest side of the finished piece. Smaller pieces are harder to bend.",
         f"size: {size_mm} mm",
@@ -75,6 +81,19 @@ def _size(drawing: Drawing, across_mm: float, wire_mm: float) -> int:
     return next((size for size in _SIZES_MM if size >= max(needed, _LEAST_MM)), _SIZES_MM[-1])
 
 
+def _seen_from(folder: Path, path: Path) -> str:
+    """The drawing's path from a folder; links are followed first, or `..` would lead elsewhere."""
+    seen = os.path.relpath(Path(os.path.realpath(path.parent), path.name), os.path.realpath(folder))
+    if problem := path_problem(seen):
+        raise DrawingError(problem.partition("; ")[0], str(path), "rename or move the drawing")
+    return seen
+
+
 def _quoted(name: str) -> str:
-    plain = all(letter.isalnum() or letter in "._-" for letter in name) and name[:1].isalnum()
+    """As YAML writes it.
+
+    >>> _quoted("../bee.png"), _quoted("../a: b/bee #2.png")
+    ('../bee.png', '"../a: b/bee #2.png"')
+    """
+    plain = all(letter.isalnum() or letter in "._-/" for letter in name) and name[0] != "-"
     return name if plain else '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -47,7 +47,7 @@ def _refuse_no_file(path: Path) -> None:
     try:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
-        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config") from None
+        raise DrawingError("no such drawing", str(path), "check its path") from None
     except (OSError, ValueError) as error:
         # Too long a name, no permission, links in a circle, a null character or half a character.
         reason = getattr(error, "strerror", None) or str(error) or "the system gives no reason"
@@ -55,7 +55,7 @@ def _refuse_no_file(path: Path) -> None:
         raise DrawingError(
             f"the drawing can't be reached ({reason.lower()})",
             where if len(where) <= _LONGEST_PLACE else f"{where[:_LONGEST_PLACE]}…",
-            "check `drawing:` in the config",
+            "check its path",
         ) from None
     if not stat.S_ISREG(mode):
         kind = "a folder" if stat.S_ISDIR(mode) else "a pipe or a device"

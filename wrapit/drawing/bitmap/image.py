@@ -45,7 +45,7 @@ def _decoded(path: Path, pixel_limit: int) -> NDArray[np.uint8]:
                 ImageOps.exif_transpose(image, in_place=True)
                 return grey_of(image)
     except FileNotFoundError:
-        raise DrawingError("no such drawing", str(path), "check `drawing:` in the config") from None
+        raise DrawingError("no such drawing", str(path), "check its path") from None
     except Image.DecompressionBombError:
         raise DrawingError(
             f"the image is larger than {pixel_limit / 1e6:g} million pixels", str(path), "scale it down"

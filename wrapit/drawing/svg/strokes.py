@@ -221,7 +221,8 @@ def _line(start: Any, end: Any) -> FloatArray:
     a, b = np.array([start.x, start.y]), np.array([end.x, end.y])
     if not (np.isfinite(a).all() and np.isfinite(b).all()):
         return np.full((4, 2), np.nan)
-    return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused by name
+        return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
 
 
 def _control(part: Any) -> FloatArray:

@@ -48,7 +48,7 @@ class _Inside:
 
 
 def place_pegs(course: Course, config: PegsConfig) -> PegPlan:
-    """The board with a peg for each turn that one can serve, the piece where most of its turns are served."""
+    """The board with a peg for each turn that one can serve, the piece lying where most turns are served."""
     import shapely
 
     low = np.vstack([chain.points.reshape(-1, 2).min(axis=0) for chain in course.chains]).min(axis=0)
@@ -58,11 +58,7 @@ def place_pegs(course: Course, config: PegsConfig) -> PegPlan:
     best: tuple[float, list[list[_Choice]], Board] | None = None
     for board in _boards(low, high, config):
         choices = _choices(board, turns, lines, course.diameter_mm / 2, config)
-        score = sum(
-            each[0].share * (turn.turn.end_mm - turn.turn.start_mm)
-            for turn, each in zip(turns, choices, strict=True)
-            if each
-        )
+        score = sum(each[0].share for each in choices if each)
         if best is None or score > best[0] + 1e-9:
             best = score, choices, board
         if not turns:
