@@ -48,7 +48,7 @@ def test_a_stretch_needs_one_wall_and_is_no_turn() -> None:
     assert total_support(one_sided) == total_support(jig.support) > 0.95
     assert stretch_support(bare) == total_support(bare) == 0.0
     plan, _ = plan_jig(wires, JigConfig())
-    weak = {finding.code: finding.where for finding in support_findings(course, plan, bare, JigConfig())}
+    weak = {finding.code: finding.where for finding in support_findings(course, plan.pins, bare, JigConfig())}
     assert set(weak) == {"weak-turn", "weak-stretch"}
     assert weak["weak-stretch"] == course.place(stretch)
 

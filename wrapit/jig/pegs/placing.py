@@ -21,10 +21,12 @@ from wrapit.jig.channel import SIDES, Course
 from wrapit.jig.pegs.model import Board, Cell, Peg, PegPlan
 from wrapit.wires.model import Turn
 
-# The piece is tried at so many places in a pitch, along x and along y.
+# The piece is tried at so many places in a pitch, along x and along y: finer than a hand lays it on a board.
 SHIFTS = 8
-# A peg may push wire aside by this much: less than anybody sees.
-SQUEEZE_MM = 0.1
+# A peg may push wire aside by this much. Boards are tried in steps of an eighth of a pitch, so a peg that fills
+# its turn lies up to 0.44 mm off at 5 mm pitch; 0.1 mm refused nearly all of those, and hands bend no finer.
+SQUEEZE_MM = 0.3
+# Of points along a turn: shares are right to a point in ten on the tightest turns.
 STEP_MM = 0.25
 # Less of a turn than this is no help to the hand: the peg is left out.
 LEAST_SHARE = 0.3
