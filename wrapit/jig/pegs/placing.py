@@ -23,8 +23,8 @@ from wrapit.wires.model import Turn
 
 # The piece is tried at so many places in a pitch, along x and along y: finer than a hand lays it on a board.
 SHIFTS = 8
-# A peg may push wire aside by this much. Boards are tried in steps of an eighth of a pitch, so a peg that fills
-# its turn lies up to 0.44 mm off at 5 mm pitch; 0.1 mm refused nearly all of those, and hands bend no finer.
+# A peg may push wire aside by this much. Boards are tried in steps of an eighth of a pitch, so a peg that
+# fills its turn lies up to 0.44 mm off at 5 mm pitch; 0.1 mm refused most of those, and hands bend no finer.
 SQUEEZE_MM = 0.3
 # Of points along a turn: shares are right to a point in ten on the tightest turns.
 STEP_MM = 0.25
