@@ -101,7 +101,7 @@ def _start(
     if renamed and named == config.name:
         work.findings.append(
             Finding(
-                "note",
+                "warning",
                 "renamed",
                 "config",
                 f"the config's file name can't be a folder's on every system, so it is called {named!r}",

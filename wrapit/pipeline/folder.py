@@ -45,6 +45,7 @@ def followed(target: Path) -> Path:
     Raises ConfigError when no folder can be there: a file, something under a file, a link to itself, a name
     that is too long.
     """
+    folder = target
     try:
         folder = Path(os.path.realpath(target))
         if any(len(os.fsencode(part)) > LONGEST_NAME_BYTES for part in folder.parts):
@@ -52,6 +53,9 @@ def followed(target: Path) -> Path:
         if not stat.S_ISDIR(folder.stat().st_mode):
             raise ConfigError("is a file, not a folder", str(target), OTHER_FOLDER)
     except FileNotFoundError:
+        if not folder.is_absolute():
+            problem = "the folder that wrapit was started in is gone"
+            raise ConfigError(problem, _shortened(target), "start it in another one") from None
         return folder
     except (OSError, ValueError) as error:
         reason = (getattr(error, "strerror", None) or str(error)).lower()

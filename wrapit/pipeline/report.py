@@ -103,10 +103,13 @@ def springback_numbers(bent: Sequence[Overbent]) -> list[dict[str, Any]]:
 
 def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:
     """The `findings` block: each said once, those of a kind together, the worst of them first."""
+    severity: dict[Finding, float] = {}
+    for finding in findings:
+        severity[finding] = max(finding.severity, severity.get(finding, 0.0))
     kinds: dict[tuple[str, str], list[Finding]] = {}
-    for finding in dict.fromkeys(findings):
+    for finding in severity:
         kinds.setdefault((finding.code, finding.level), []).append(finding)
-    ordered = [f for kind in kinds.values() for f in sorted(kind, key=lambda f: -f.severity)]
+    ordered = [f for kind in kinds.values() for f in sorted(kind, key=lambda f: -severity[f])]
     return [
         {"level": f.level, "code": f.code, "where": f.where, "message": f.message, "remedy": f.remedy}
         for f in ordered
