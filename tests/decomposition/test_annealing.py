@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from tests.bench.graphs import FAMILIES, all_even, random_multigraph
 from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition
 from wrapit.config.decomposition import AnnealingConfig
-from wrapit.decomposition.annealing.branches import smallest_branches
-from wrapit.decomposition.annealing.matching_state import Wires
 from wrapit.decomposition.annealing.stage import anneal
 from wrapit.decomposition.energy import energy_of, weak_trails
+from wrapit.decomposition.local_moves.branches import smallest_branches
+from wrapit.decomposition.local_moves.matching_state import Wires
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
 from wrapit.decomposition.trails import trails_of

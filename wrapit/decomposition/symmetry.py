@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.model import NO_MATE, half_edges
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 
@@ -89,8 +89,9 @@ def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ..
     mirror = [NO_MATE] * (2 * len(lines))
     for e, f in enumerate(nearest.tolist()):
         if nearest[f] == e and distance[e, f] <= tolerance_mm:
+            first, last = half_edges(e)
             flip = int(turned[e, f] < same[e, f])
-            mirror[2 * e], mirror[2 * e + 1] = 2 * f + flip, 2 * f + 1 - flip
+            mirror[first], mirror[last] = half_edges(f)[flip], half_edges(f)[1 - flip]
     return tuple(mirror)
 
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from wrapit.decomposition.annealing.matching_state import descended
 from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
 from wrapit.decomposition.exact.highs import Name, Optimum, Programme
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.local_moves.matching_state import descended
+from wrapit.decomposition.model import NO_MATE, half_edges, ordered
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.symmetry import mirrored_junctions
 
@@ -144,7 +144,7 @@ class _Model:
         """Each half-edge has one mate at most; of an odd set of half-edges, one stays without."""
         pair = self._costs.pair
         for h in ends:
-            row: dict[Name, float] = {(min(h, b), max(h, b)): 1.0 for b in pair[h]}
+            row: dict[Name, float] = {ordered(h, b): 1.0 for b in pair[h]}
             bridge = h >> 1 in self._graph.bridges
             if bridge:
                 row["bridge", h >> 1] = -1.0
@@ -157,9 +157,7 @@ class _Model:
         """A bridge counts as one more wire and its own weight as soon as it joins something."""
         weights, pair = self._problem.weights, self._costs.pair
         programme.add_column(("bridge", bridge), 1.0 + weights.bridges)
-        row: dict[Name, float] = {
-            (min(h, b), max(h, b)): -1.0 for h in (2 * bridge, 2 * bridge + 1) for b in pair[h]
-        }
+        row: dict[Name, float] = {ordered(h, b): -1.0 for h in half_edges(bridge) for b in pair[h]}
         programme.add_row({**row, ("bridge", bridge): 1.0}, high=0.0)
 
     def _add_rules(self, programme: Programme) -> None:
@@ -181,15 +179,14 @@ class _Model:
             programme.add_row({("height", e, f, f): 1.0}, low=1.0)
             for a, mates in enumerate(pair):
                 for b in mates:
-                    step = {("height", e, f, a >> 1): 1.0, ("height", e, f, b >> 1): -1.0, (a, b): 1.0}
-                    step[min(a, b), max(a, b)] = step.pop((a, b))
-                    programme.add_row(step, high=1.0)
+                    level = {("height", e, f, a >> 1): 1.0, ("height", e, f, b >> 1): -1.0}
+                    programme.add_row({**level, ordered(a, b): 1.0}, high=1.0)
 
     def _add_likeness(self, programme: Programme, junction: int) -> None:
         mirror = self._problem.mirror
         for a in self._graph.incident[junction]:
             for b in self._costs.pair[a]:
-                image = (min(mirror[a], mirror[b]), max(mirror[a], mirror[b]))
+                image = ordered(mirror[a], mirror[b])
                 if a < b and image != (a, b):
                     for sign in (1.0, -1.0):
                         programme.add_row({(a, b): sign, image: -sign, ("unlike", junction): -1.0}, high=0.0)
@@ -198,7 +195,7 @@ class _Model:
         graph, rules = self._graph, self._problem.rules
         if rules.apart or self._cuts:
             return set(range(len(graph.incident)))
-        bridged = {graph.junction_of[h] for e in graph.bridges for h in (2 * e, 2 * e + 1)}
+        bridged = {graph.junction_of[h] for e in graph.bridges for h in half_edges(e)}
         ended = {graph.junction_of[ends[0]] for ends in rules.ends}
         required = {graph.junction_of[a] for group in rules.required for a, _ in group}
         mirrored = {j for pair in mirrored_junctions(graph, self._problem.mirror) for j in pair}

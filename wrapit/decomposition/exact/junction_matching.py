@@ -10,9 +10,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.model import NO_MATE, Pair, ordered
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import Pair
 
 Matching = tuple[Pair, ...]
 
@@ -117,7 +116,7 @@ class LocalCosts:
 
     def penalise_ends(self, h: int, other: int, cost: float) -> None:
         """Wire ends at both half-edges cost `cost` more."""
-        low, high = min(h, other), max(h, other)
+        low, high = ordered(h, other)
         self.loose[low] = (high, self.loose.get(low, (high, 0.0))[1] + cost)
         self._forget(h)
 
@@ -193,9 +192,9 @@ class LocalCosts:
         if other in rest:
             yield self.free[h] + self.free[other] + both, (h, other), ()
             for b in rest:
-                if b in self.pair[other] and (min(b, other), max(b, other)) != without:
+                if b in self.pair[other] and ordered(b, other) != without:
                     cost = self.free[h] + self.pair[other][b]
-                    yield cost, (h, other, b), ((min(b, other), max(b, other)),)
+                    yield cost, (h, other, b), (ordered(b, other),)
         else:
             yield self.free[h], (h,), ()
         for b in rest:
@@ -213,11 +212,11 @@ class LocalCosts:
                 if a < b:
                     programme.add_column(("pair", a, b), cost - self.free[a] - self.free[b])
         for h in ends:
-            programme.add_row({("pair", min(h, b), max(h, b)): 1.0 for b in self.pair[h]}, high=1.0)
+            programme.add_row({("pair", *ordered(h, b)): 1.0 for b in self.pair[h]}, high=1.0)
         for h, (other, both) in self.loose.items():
             if h in ends:
                 programme.add_column(("loose", h), both)
-                touching = {("pair", min(x, b), max(x, b)): 1.0 for x in (h, other) for b in self.pair[x]}
+                touching = {("pair", *ordered(x, b)): 1.0 for x in (h, other) for b in self.pair[x]}
                 programme.add_row({**touching, ("loose", h): 1.0}, low=1.0)
         values = programme.solve(10**6).values
         assert values is not None

@@ -31,7 +31,7 @@ class OutOfWorkError(Exception):
 
 
 @dataclass
-class Work:
+class WorkCounter:
     """Counts the partial matchings looked at."""
 
     most: int
@@ -49,7 +49,7 @@ def options_at(
     branches: Sequence[Branch],
     pair: Sequence[Mapping[int, float]],
     weak_cost: float,
-    work: Work,
+    work: WorkCounter,
 ) -> list[Option]:
     """What wires can do at a junction with all that hangs on it, cheapest first.
 
@@ -155,7 +155,7 @@ class _Search:
         self._passed: set[tuple[int, bool]] = set()
         self._wanted: dict[int, list[_Wanted]] = {}
 
-    def run(self, work: Work) -> None:
+    def run(self, work: WorkCounter) -> None:
         """Takes what is worth it. Raises OutOfWorkError."""
         everything = (1 << len(self._below)) - 1
         states: Iterable[_State] = [

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from wrapit.decomposition.exact.cactus.blocks import Block, as_cactus
-from wrapit.decomposition.exact.cactus.cut_junction import OutOfWorkError, Work, options_at
+from wrapit.decomposition.exact.cactus.blocks import HangingBlock, as_cactus
+from wrapit.decomposition.exact.cactus.cut_junction import OutOfWorkError, WorkCounter, options_at
 from wrapit.decomposition.exact.cactus.modes import Branch
 from wrapit.decomposition.exact.cactus.options import ENOUGH, Option, useful
 from wrapit.decomposition.exact.junction_matching import LocalCosts
@@ -32,7 +32,7 @@ def solved_by_blocks(problem: Problem) -> Answer | None:
     if cactus is None:
         return None
     pair = LocalCosts(problem).pair
-    work = Work(_LEAST_WORK + _WORK * graph.segments)
+    work = WorkCounter(_LEAST_WORK + _WORK * graph.segments)
     options: dict[int, list[Option]] = {}
     try:
         for junction in reversed(cactus.order):
@@ -50,7 +50,7 @@ def solved_by_blocks(problem: Problem) -> Answer | None:
     return Answer(tuple(mate), work.done, min(least, energy), energy - least < 1e-9)
 
 
-def _hanging(block: Block, options: Mapping[int, list[Option]], weak_cost: float) -> list[Option]:
+def _hanging(block: HangingBlock, options: Mapping[int, list[Option]], weak_cost: float) -> list[Option]:
     """What a block can do, from what the junctions along it can."""
     if len(block.doors) == 1:
         return options[block.junctions[0]]
