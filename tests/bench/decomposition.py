@@ -21,7 +21,7 @@ import numpy as np
 
 from tests.bench.graphs import FAMILIES, all_even, composed, flowers, graph_text, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
-from tests.decomposition.test_wishes import obeys, some_rules, with_some_bridges
+from tests.decomposition.cases import obeys, some_rules, with_some_bridges
 from wrapit.config.decomposition import AnnealingConfig
 from wrapit.decomposition.annealing.stage import anneal
 from wrapit.decomposition.exact.stage import solve_exactly
