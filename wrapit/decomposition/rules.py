@@ -49,6 +49,7 @@ class Rules:
 
 
 NO_RULES = Rules()
+"""What most drawings come with: nothing is asked."""
 
 
 def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:

@@ -55,6 +55,7 @@ def _annealed(problem: Problem, config: DecompositionConfig, rng: np.random.Gene
     return replace(answer, lower_bound=certified(problem).lower_bound)
 
 
+# The one place that knows solvers by name; the keys are those of the config.
 SOLVERS: dict[SolverName, Solver] = {
     "exact": Solver(_exact, _another_exact, exhaustive=True, proves_more="raise decomposition.exact.budget"),
     "annealing": Solver(_annealed, alternatives_from="exact"),

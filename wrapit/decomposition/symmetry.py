@@ -16,7 +16,11 @@ from wrapit.geometry import FloatArray, locked
 
 Direction = Literal["auto", "vertical", "horizontal"]
 
-_TOLERANCE = 0.04  # of the longest side: hand-drawn halves differ
+# When two segments are images of one another: points spread evenly along them, and how far apart the points
+# may be, as a share of the longest side, since hand-drawn halves differ. On 30 icons the same 15 are
+# mirrored throughout from 0.02 to 0.052; at 0.01 two of them are lost, at 0.08 a fish is taken for
+# mirrored. From 5 to 17 points 282 or 283 segments find an image: nothing hangs on their number.
+_TOLERANCE = 0.04
 _PARTS = 9
 
 

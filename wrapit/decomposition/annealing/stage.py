@@ -17,6 +17,8 @@ from wrapit.decomposition.local_moves.matching_state import Wires
 from wrapit.decomposition.model import NO_MATE, half_edges
 from wrapit.decomposition.problem import Answer, Problem
 
+# Random numbers drawn at a time. From 1024 to 32 768 a run takes the same time to 5 %; what each seed finds
+# hangs on the number, so it stays.
 _BLOCK = 1 << 13
 
 

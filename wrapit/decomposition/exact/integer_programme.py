@@ -18,7 +18,12 @@ from wrapit.decomposition.model import NO_MATE, half_edges, ordered
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.symmetry import mirrored_junctions
 
+# Energies that differ by less are equal; it is what HiGHS can tell apart once the costs are scaled.
 _CLOSE = 1e-9
+
+# Up to this degree every three half-edges at a junction have their odd-set inequality from the start. On
+# 145 graphs it makes no difference to what is proven; 0 to 10 take the same time to 10 %, 13 and more a
+# tenth longer.
 _ALL_TRIPLES_DEGREE = 10
 
 

