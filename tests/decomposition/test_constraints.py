@@ -100,6 +100,16 @@ def test_a_contradiction_names_the_constraints_that_make_it() -> None:
 
 
 @pytest.mark.parametrize(
+    "wish", [{"start_at": 1}, {"max_wire_length": "30 mm"}, {"different_wire": [0, 2]}], ids=str
+)
+def test_what_can_be_is_not_called_impossible_for_want_of_work(wish: dict[str, Any]) -> None:
+    assert solved(theta(), constraints=[wish]).optimal
+    with pytest.raises(DecompositionError, match="the solver exact found no wires") as caught:
+        decompose(theta(), config(constraints=[wish], exact={"budget": 0}))
+    assert caught.value.remedy == "raise decomposition.exact.budget"
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("{same_wire: [0, 1], cut_at: 3}", "says one thing, not 2"),

@@ -10,6 +10,9 @@ from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import NO_MATE, Energy, Weights, half_edges
 from wrapit.decomposition.rules import NO_RULES, Rules, broken
 
+CLOSE = 1e-9
+"""Energies that differ by less are equal: sums of some thousand terms err by 1e-12, and HiGHS by this."""
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:

@@ -48,6 +48,9 @@ class Rules:
         )
 
 
+SLACK_MM = 1e-9
+"""By so much a wire may exceed the longest: sums of lengths in another order differ by less."""
+
 NO_RULES = Rules()
 """What most drawings come with: nothing is asked."""
 
@@ -63,7 +66,7 @@ def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
     count += sum(f not in wire_through(mate, e) for e, f in rules.same)
     count += sum(f in wire_through(mate, e) for e, f in rules.apart)
     if rules.longest_mm is not None:
-        count += sum(length > rules.longest_mm + 1e-9 for length in _lengths(graph, mate))
+        count += sum(length > rules.longest_mm + SLACK_MM for length in _lengths(graph, mate))
     return count
 
 

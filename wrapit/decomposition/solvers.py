@@ -92,6 +92,15 @@ def exhaustive_solver(config: DecompositionConfig) -> Solver:
     return own if own.exhaustive else next(solver for solver in SOLVERS.values() if solver.exhaustive)
 
 
+def more_thorough(config: DecompositionConfig) -> str:
+    """What the user can do where wires were neither found nor proved impossible."""
+    own = SOLVERS[config.solver]
+    if own.exhaustive:
+        return own.proves_more
+    able = [name for name, solver in SOLVERS.items() if solver.exhaustive]
+    return f"use solver: {' or '.join(able)}"
+
+
 def _asked(config: DecompositionConfig) -> Iterator[tuple[str, str]]:
     """What the config asks for that a solver may be unable to heed, and where it does."""
     for index, constraint in enumerate(config.constraints):

@@ -20,6 +20,7 @@ from wrapit.decomposition.solvers import (
     SOLVERS,
     check_solver,
     exhaustive_solver,
+    more_thorough,
     source_of_alternatives,
 )
 from wrapit.decomposition.symmetry import mirror_images
@@ -126,17 +127,20 @@ def _solution(
 
 
 def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionError:
-    """Names the fewest constraints that can't be met together: each of them is needed for that."""
+    """Names the fewest constraints that can't be met together: each of them is needed for that.
+
+    Where nothing is proved about them, it says that none were found, and how to find more.
+    """
     kept = list(enumerate(config.constraints))
-    if _can_be_met(problem, config, [constraint for _, constraint in kept]):
+    if not _is_impossible(problem, config, [constraint for _, constraint in kept]):
         return DecompositionError(
             f"the solver {config.solver} found no wires that meet all constraints",
             "decomposition.constraints",
-            _more_thorough(),
+            more_thorough(config),
         )
     for entry in list(kept):
         fewer = [other for other in kept if other is not entry]
-        if not _can_be_met(problem, config, [constraint for _, constraint in fewer]):
+        if _is_impossible(problem, config, [constraint for _, constraint in fewer]):
             kept = fewer
     named = " and ".join(f"constraints.{index} ({_said(constraint)})" for index, constraint in kept)
     return DecompositionError(
@@ -146,24 +150,19 @@ def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionErro
     )
 
 
-def _can_be_met(
+def _is_impossible(
     problem: Problem, config: DecompositionConfig, constraints: Sequence[ConstraintConfig]
 ) -> bool:
+    """Whether no wires can meet the constraints, proved; a search that ran out of work proves nothing."""
     asked = replace(problem, rules=rules_of(problem.graph, constraints, config.bridges))
     solver, rng = exhaustive_solver(config), np.random.default_rng(config.seed)
     answer = solve_piecewise(
         asked, parts_of(asked, config.bridges), lambda part: solver.solve(part, config, rng)
     )
-    return answer is not None and asked.is_allowed(answer.mate)
+    return answer is None
 
 
 def _said(constraint: ConstraintConfig) -> str:
     return ", ".join(
         f"{key}: {value}" for key, value in constraint.model_dump(mode="json", exclude_none=True).items()
     )
-
-
-def _more_thorough() -> str:
-    """The solvers that decide, and how each is given more work."""
-    able = {name: solver for name, solver in SOLVERS.items() if solver.exhaustive}
-    return f"use solver: {' or '.join(able)}, or {' or '.join(s.proves_more for s in able.values())}"

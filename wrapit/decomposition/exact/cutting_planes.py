@@ -11,7 +11,7 @@ from wrapit.decomposition.exact.ring_bound import ring_of
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, Pair, half_edges, ordered
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import in_use, wire_through
+from wrapit.decomposition.rules import SLACK_MM, in_use, wire_through
 from wrapit.decomposition.trails import trails_of, walk
 
 Weak = tuple[tuple[int, ...], int]
@@ -119,7 +119,7 @@ def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterat
             continue
         wire = wire_through(mate, e)
         seen |= wire
-        if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + 1e-9:
+        if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + SLACK_MM:
             continue
         inside = {h for f in wire for h in half_edges(f)}
         strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.bridges))

@@ -15,16 +15,16 @@ from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
 from wrapit.decomposition.local_moves.matching_state import descended
 from wrapit.decomposition.model import NO_MATE, half_edges, ordered
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.problem import CLOSE, Answer, Problem
 from wrapit.decomposition.symmetry import mirrored_junctions
-
-# Energies that differ by less are equal; it is what HiGHS can tell apart once the costs are scaled.
-_CLOSE = 1e-9
 
 # Up to this degree every three half-edges at a junction have their odd-set inequality from the start. On
 # 145 graphs it makes no difference to what is proven; 0 to 10 take the same time to 10 %, 13 and more a
 # tenth longer.
 _ALL_TRIPLES_DEGREE = 10
+
+# The first node takes longer the larger the programme is: as long as one more node for each so many columns.
+_COLUMNS_OF_A_NODE = 50
 
 
 def solve_by_cuts(
@@ -41,11 +41,11 @@ def solve_by_cuts(
     best = known.mate if _fits(problem, known.mate, excluded) else None
     least = problem.energy(best).total if best else float("inf")
     bound, rounds, spent = known.lower_bound or 0.0, known.iterations, 0
-    while least - bound > _CLOSE and spent < budget:
+    while least - bound > CLOSE and spent < budget:
         rounds += 1
         programme, base = model.programme()
         columns = max(1, len(programme.columns))
-        first = columns // 50  # the first node takes longer the larger it is: measured, in nodes
+        first = columns // _COLUMNS_OF_A_NODE
         optimum = programme.solve(max(1, (budget - spent) // columns - first))
         spent += columns * (max(1, optimum.nodes) + first)
         if not optimum.feasible:
@@ -58,14 +58,14 @@ def solve_by_cuts(
             if not _fits(problem, candidate, excluded):
                 continue
             energy = problem.energy(candidate).total
-            if energy < least - _CLOSE:
+            if energy < least - CLOSE:
                 best, least = tuple(candidate), energy
         if not model.learn(mate):
             break
     if best is None:
         # Out of budget: what breaks a rule is for the caller to refuse, what repeats another is no answer.
         return None if others else Answer(known.mate, rounds, bound)
-    return Answer(best, rounds, min(bound, least), least - bound <= _CLOSE)
+    return Answer(best, rounds, min(bound, least), least - bound <= CLOSE)
 
 
 def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:

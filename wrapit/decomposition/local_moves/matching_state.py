@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from wrapit.decomposition.local_moves.branches import smallest_branches
 from wrapit.decomposition.model import NO_MATE, half_edges, ordered
-from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.problem import CLOSE, Problem
 from wrapit.decomposition.rules import NO_RULES, broken
 from wrapit.decomposition.symmetry import is_unlike, mirrored_junctions
 
@@ -23,7 +23,7 @@ def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
         improved = False
         for a, partners in enumerate(wires.partners):
             for b in partners:
-                if a < b and wires.toggle(a, b, -1e-9):
+                if a < b and wires.toggle(a, b, -CLOSE):
                     improved = True
     return wires.mate
 

@@ -16,7 +16,7 @@ from wrapit.decomposition.exact.cactus.modes import Branch
 from wrapit.decomposition.exact.cactus.options import ENOUGH, Option, useful
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.model import NO_MATE
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.problem import CLOSE, Answer, Problem
 
 # Choices looked at for each segment, and at least, before the junctions with many ends are left to others.
 # On 145 graphs (29 of them of this kind, up to 214 segments) 0 to 52 and 2000 to 26 000 prove the same in
@@ -50,7 +50,7 @@ def solved_by_blocks(problem: Problem) -> Answer | None:
     for a, b in _pairs(best):
         mate[a], mate[b] = b, a
     least, energy = graph.segments + best.cost, problem.energy(mate).total
-    return Answer(tuple(mate), work.done, min(least, energy), energy - least < 1e-9)
+    return Answer(tuple(mate), work.done, min(least, energy), energy - least < CLOSE)
 
 
 def _hanging(block: HangingBlock, options: Mapping[int, list[Option]], weak_cost: float) -> list[Option]:
