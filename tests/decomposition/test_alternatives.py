@@ -19,6 +19,12 @@ def test_alternatives_differ_and_come_in_order() -> None:
     assert len({solution.decomposition.mate for solution in found}) == 4
 
 
+def test_annealing_refers_to_the_proven_ones() -> None:
+    found, expected = (alternatives(theta(), config(solver=solver), 3) for solver in ("annealing", "exact"))
+    assert [each.decomposition.mate for each in found] == [each.decomposition.mate for each in expected]
+    assert {each.solver for each in found} == {"exact"}
+
+
 def test_alternatives_of_a_drawing_in_pieces_combine_theirs() -> None:
     points = [(0, 0), (9, 0), (0, 9), (50, 0), (59, 0), (50, 9), (0, 30)]
     corners = drawing_of(points, [(0, 1), (0, 2), (3, 4), (3, 5)])
