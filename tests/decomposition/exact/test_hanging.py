@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import islice
 
 import numpy as np
@@ -13,12 +14,14 @@ from hypothesis import strategies as st
 from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition
 from tests.decomposition.cases import connected
 from tests.decomposition.drawings import cross, theta
+from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.exact.hanging import Pendants
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.ring_bound import certify
 from wrapit.decomposition.graph import Graph, graph_of
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.trails import trails_of
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
 
@@ -66,3 +69,27 @@ def test_the_costs_at_junctions_never_add_up_to_more_than_the_energy(
             at_junctions = math.fsum(costs.cost(j, mate) for j in range(len(graph.incident)))
             assert graph.segments + at_junctions <= energy + 1e-9
     assert graph.segments + certify(graph, costs).bound <= best_by_trying(graph, WEIGHTS) + 1e-9
+
+
+@pytest.mark.parametrize("weights", [WEIGHTS, Weights(0.3, 2.0), Weights(0.1, 0.3)], ids=str)
+def test_what_is_learned_of_a_branch_keeps_the_bound_below_the_best(weights: Weights) -> None:
+    learned = 0
+    for seed in range(300):
+        graph = connected(seed, 5, 5)
+        costs = LocalCosts(Problem(graph, weights))
+        pendants = Pendants(graph, costs, weights.robustness)
+        while pendants.learn(mate := certify(graph, costs).mate, weak_ends(graph, mate)):
+            learned += 1
+            bound = graph.segments + certify(graph, costs).bound
+            assert bound <= best_by_trying(graph, weights) + 1e-9
+    assert learned > 10  # else this tests nothing
+
+
+def weak_ends(graph: Graph, mate: Sequence[int]) -> list[tuple[int, int]]:
+    """A wire end and the one contact of each weak wire."""
+    trails = trails_of(graph, mate)
+    return [
+        (trail.traversals[0].departure, min(junctions))
+        for trail, junctions in zip(trails, contacts_of(graph, trails), strict=True)
+        if len(junctions) == 1
+    ]
