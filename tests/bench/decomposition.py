@@ -21,14 +21,13 @@ import numpy as np
 
 from tests.bench.graphs import FAMILIES, all_even, composed, flowers, graph_text, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
-from tests.decomposition.test_wishes import obeys, some_rules, with_some_bridges
+from tests.decomposition.cases import obeys, some_rules, with_some_bridges
 from wrapit.config.decomposition import AnnealingConfig
 from wrapit.decomposition.annealing.stage import anneal
-from wrapit.decomposition.exact.by_component import parts_of, solve_piecewise
 from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import Energy, Weights
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.problem import Answer, Problem, parts_of, solve_piecewise
 from wrapit.decomposition.rules import NO_RULES
 from wrapit.decomposition.trails import trails_of
 

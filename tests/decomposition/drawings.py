@@ -33,3 +33,23 @@ def cross() -> Drawing:
 def theta() -> Drawing:
     """A square with a diagonal: two junctions of degree 3, two corners."""
     return drawing_of([(0, 0), (10, 0), (10, 10), (0, 10)], [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)])
+
+
+def gap_drawing() -> Drawing:
+    """A frame with two twigs inside whose tips nearly meet."""
+    points = [(0, 0), (30, 0), (30, 20), (0, 20), (0, 10), (30, 10), (14, 10), (16, 10)]
+    return drawing_of(points, [(0, 1), (1, 5), (5, 2), (2, 3), (3, 4), (4, 0), (4, 6), (5, 7)])
+
+
+def twig_drawing() -> Drawing:
+    """Two crossing diagonals in a frame, and a twig that hangs on a side."""
+    points = [(0, 0), (20, 0), (20, 20), (0, 20), (10, 10), (10, 0), (10, -8)]
+    lines = [(0, 5), (5, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 2), (1, 4), (4, 3), (5, 6)]
+    return drawing_of(points, lines)
+
+
+def lotus() -> Drawing:
+    """Mirrored about x = 0: a stem, two petals that cross, two leaves; drawn a little unevenly."""
+    points = [(0, 0), (0, 20), (12, 30), (-12.2, 30.1), (0, 34), (10, 8), (-10.1, 8), (16, 18), (-15.9, 18)]
+    lines = [(0, 1), (1, 2), (1, 3), (2, 4), (3, 4), (0, 5), (0, 6), (5, 7), (6, 8), (7, 2), (8, 3), (1, 4)]
+    return drawing_of(points, lines)

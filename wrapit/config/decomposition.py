@@ -10,6 +10,9 @@ from pydantic import Field, field_validator, model_validator
 from wrapit.config.block import Block
 from wrapit.config.quantities import Numbered, length, number, whole
 
+SolverName = Literal["exact", "annealing"]
+"""The ways to divide a drawing; `wrapit.decomposition.solvers` holds what each of them does."""
+
 Operator = Literal["join", "split", "permute", "bridge"]
 
 MOST_ITERATIONS: Final = 100_000_000
@@ -125,7 +128,7 @@ class ConstraintConfig(Block):
 class DecompositionConfig(Block):
     """How the drawing is divided into wires."""
 
-    solver: Literal["exact", "annealing"] = "exact"
+    solver: SolverName = "exact"
     """`exact`: the proven best; `annealing`: the paper's search."""
 
     seed: Annotated[int, whole(0, 2**53 - 1)] = 1

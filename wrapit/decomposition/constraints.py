@@ -7,9 +7,11 @@ from itertools import combinations
 
 from wrapit.config.decomposition import ConstraintConfig
 from wrapit.decomposition.graph import Graph, pieces
-from wrapit.decomposition.rules import Pair, Rules
+from wrapit.decomposition.model import Pair, half_edges, ordered
+from wrapit.decomposition.rules import Rules
 from wrapit.errors import ConfigError
 
+# Where the user finds the numbers that constraints speak in.
 _HELP = "drawing.svg shows the numbers of segments and junctions"
 
 
@@ -77,9 +79,9 @@ def _transitions(graph: Graph, segments: tuple[int, int], at: int | None, where:
     _check_segments(graph, segments, where)
     first, second = segments
     found = [
-        (min(a, b), max(a, b))
-        for a in (2 * first, 2 * first + 1)
-        for b in (2 * second, 2 * second + 1)
+        ordered(a, b)
+        for a in half_edges(first)
+        for b in half_edges(second)
         if graph.junction_of[a] == graph.junction_of[b]
     ]
     junctions = sorted({graph.junction_of[a] for a, _ in found})

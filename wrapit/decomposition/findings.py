@@ -9,13 +9,16 @@ from wrapit.decomposition.model import Solution
 from wrapit.errors import Finding
 
 
-def findings_of(graph: Graph, solution: Solution) -> tuple[Finding, ...]:
-    """Weak wires, doubled ones, separate pieces, answers that are not proven, and more wires than needed."""
+def findings_of(graph: Graph, solution: Solution, proves_more: str = "") -> tuple[Finding, ...]:
+    """Weak wires, doubled ones, separate pieces, answers that are not proven, and more wires than needed.
+
+    `proves_more` is what the user can do for a proof, empty where the solver promises none.
+    """
     return (
         *_weak(graph, solution),
         *_doubled(solution),
         *_pieces(graph, solution),
-        *_unproven(solution),
+        *_unproven(solution, proves_more),
         *_more_than_needed(graph, solution),
     )
 
@@ -66,8 +69,8 @@ def _pieces(graph: Graph, solution: Solution) -> list[Finding]:
     ]
 
 
-def _unproven(solution: Solution) -> list[Finding]:
-    if solution.solver != "exact" or solution.optimal:
+def _unproven(solution: Solution, proves_more: str) -> list[Finding]:
+    if not proves_more or solution.optimal:
         return []
     gap = solution.energy.total - (solution.lower_bound or 0.0)
     return [
@@ -76,7 +79,7 @@ def _unproven(solution: Solution) -> list[Finding]:
             "not-proven-best",
             "decomposition",
             f"better wires may exist: the energy {solution.energy.total:.4f} is at most {gap:.4f} too high",
-            "raise decomposition.exact.budget",
+            proves_more,
         )
     ]
 

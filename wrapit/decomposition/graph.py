@@ -9,12 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
+from wrapit.decomposition.model import half_edges
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 from wrapit.geometry.disjoint_sets import Sets
 
 # Headings are whole multiples of this. Mirror images, and pairings of the same ends that cross or nest, then
 # bend by exactly the same, and no choice between them hangs on the last bit that some machine computes.
+# 1.2e-10 rad: far above the error of an arctangent, far below any bend that could be seen.
 _GRAIN_RAD = 2.0**-33
 _HALF_TURN = round(math.pi / _GRAIN_RAD)
 
@@ -84,12 +86,12 @@ class Graph:
 
     def subgraph(self, segments: Sequence[int]) -> Graph:
         """The graph of these segments alone, segments and junctions renumbered in order."""
-        half_edges = [h for e in segments for h in (2 * e, 2 * e + 1)]
-        junctions = sorted({self.junction_of[h] for h in half_edges})
+        ends = [h for e in segments for h in half_edges(e)]
+        junctions = sorted({self.junction_of[h] for h in ends})
         number = {junction: index for index, junction in enumerate(junctions)}
         return Graph(
-            tuple(number[self.junction_of[h]] for h in half_edges),
-            self.tangents[half_edges],
+            tuple(number[self.junction_of[h]] for h in ends),
+            self.tangents[ends],
             tuple(self.lengths_mm[e] for e in segments),
             frozenset(index for index, e in enumerate(segments) if e in self.bridges),
         )
@@ -130,6 +132,6 @@ def fewest_possible_wires(graph: Graph) -> int:
     strokes = graph.subgraph([e for e in range(graph.segments) if e not in graph.bridges])
     odd = [len(ends) % 2 for ends in strokes.incident]
     return sum(
-        max(1, sum(odd[j] for j in {strokes.junction_of[h] for e in piece for h in (2 * e, 2 * e + 1)}) // 2)
+        max(1, sum(odd[j] for j in {strokes.junction_of[h] for e in piece for h in half_edges(e)}) // 2)
         for piece in pieces(strokes)
     )

@@ -3,12 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
+from wrapit.config.decomposition import SolverName
 from wrapit.drawing.model import Drawing
 
-SolverName = Literal["exact", "annealing"]
 NO_MATE = -1
+"""Stands in a matching for the mate of a half-edge at which a wire ends; no half-edge has this number."""
+
+Pair = tuple[int, int]
+"""Two half-edges (or two segments) in rising order, so that a transition has one name."""
+
+
+def half_edges(segment: int) -> Pair:
+    """The half-edges of a segment: at its start, and at its end.
+
+    >>> half_edges(3)
+    (6, 7)
+    """
+    return 2 * segment, 2 * segment + 1
+
+
+def ordered(a: int, b: int) -> Pair:
+    """Two numbers as the name of what is the same from both sides, such as a transition.
+
+    >>> ordered(5, 2)
+    (2, 5)
+    """
+    return (a, b) if a < b else (b, a)
 
 
 class Traversal(NamedTuple):
@@ -53,7 +75,7 @@ class Transition:
 class Decomposition:
     """`mate[h]` is the half-edge that the wire on half-edge h continues into, or NO_MATE at a wire end.
 
-    Segment e has half-edges 2e (its start) and 2e + 1 (its end).
+    Segment e has `half_edges(e)`, 2e at its start and 2e + 1 at its end.
     """
 
     drawing: Drawing

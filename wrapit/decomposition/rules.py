@@ -6,9 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import NO_MATE
-
-Pair = tuple[int, int]
+from wrapit.decomposition.model import NO_MATE, Pair, half_edges
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,11 @@ class Rules:
         )
 
 
+SLACK_MM = 1e-9
+"""By so much a wire may exceed the longest: sums of lengths in another order differ by less."""
+
 NO_RULES = Rules()
+"""What most drawings come with: nothing is asked."""
 
 
 def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
@@ -64,19 +66,20 @@ def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
     count += sum(f not in wire_through(mate, e) for e, f in rules.same)
     count += sum(f in wire_through(mate, e) for e, f in rules.apart)
     if rules.longest_mm is not None:
-        count += sum(length > rules.longest_mm + 1e-9 for length in _lengths(graph, mate))
+        count += sum(length > rules.longest_mm + SLACK_MM for length in _lengths(graph, mate))
     return count
 
 
 def in_use(graph: Graph, mate: Sequence[int], e: int) -> bool:
     """Whether a segment is part of a wire: strokes always, a bridge where it joins something."""
-    return e not in graph.bridges or mate[2 * e] != NO_MATE or mate[2 * e + 1] != NO_MATE
+    start, end = half_edges(e)
+    return e not in graph.bridges or mate[start] != NO_MATE or mate[end] != NO_MATE
 
 
 def wire_through(mate: Sequence[int], e: int) -> set[int]:
     """Segments of the wire (or ring) that runs along a segment."""
     segments = {e}
-    for h in (2 * e, 2 * e + 1):
+    for h in half_edges(e):
         x = mate[h]
         while x != NO_MATE and x >> 1 not in segments:
             segments.add(x >> 1)

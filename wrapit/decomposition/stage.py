@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig
-from wrapit.decomposition.annealing.stage import anneal
+from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig, SolverName
 from wrapit.decomposition.bridges import with_bridges
 from wrapit.decomposition.constraints import rules_of
 from wrapit.decomposition.doubling import doubled_back
 from wrapit.decomposition.energy import energy_of_trails
-from wrapit.decomposition.exact.branch_and_bound import certified
-from wrapit.decomposition.exact.by_component import best_answers, parts_of, solve_piecewise
-from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.findings import findings_of
-from wrapit.decomposition.graph import Graph, graph_of
-from wrapit.decomposition.model import Decomposition, Solution, SolverName, Weights
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.graph import graph_of
+from wrapit.decomposition.model import Decomposition, Solution, Weights
+from wrapit.decomposition.problem import Answer, Problem, best_answers, parts_of, solve_piecewise
+from wrapit.decomposition.solvers import (
+    SOLVERS,
+    check_solver,
+    exhaustive_solver,
+    more_thorough,
+    source_of_alternatives,
+)
 from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DecompositionError, Finding
 
+# An energy that exceeds its lower bound by less than this share meets it.
 _CLOSE = 1e-9
-
-Solver = Callable[[Problem, DecompositionConfig, np.random.Generator], Answer | None]
 
 
 def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
@@ -38,33 +40,40 @@ def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, 
     `config.bridges` the solution's drawing has the bridges on offer appended to its segments.
 
     Raises DecompositionError for a drawing without segments and for constraints that can't be met
-    together; ConfigError for a constraint that names what the drawing doesn't have.
+    together; ConfigError for a constraint that names what the drawing doesn't have, and for what the
+    solver can't heed.
     """
     drawing, problem = _posed(drawing, config)
     rng = np.random.default_rng(config.seed)
+    solver = SOLVERS[config.solver]
     answer = solve_piecewise(
-        problem,
-        parts_of(problem, config.bridges),
-        lambda part: SOLVERS[config.solver](part, config, rng),
+        problem, parts_of(problem, config.bridges), lambda part: solver.solve(part, config, rng)
     )
     if answer is None or not problem.is_allowed(answer.mate):
         raise _refusal(problem, config)
     solution = _solution(drawing, problem, answer, config, config.solver)
-    return solution, findings_of(problem.graph, solution)
+    return solution, findings_of(problem.graph, solution, solver.proves_more)
 
 
 def alternatives(drawing: Drawing, config: DecompositionConfig, k: int) -> tuple[Solution, ...]:
-    """The k best different decompositions, best first, always by the exact solver.
+    """The k best different decompositions, best first, by the solver or the one that it names for this.
 
     Where a closed wire is left open makes no difference. `optimal` says that no other decomposition
-    but those before is better. Raises as `decompose` does.
+    but those before is better. Raises as `decompose` does, and ConfigError where the
+    solver finds none.
     """
+    solver, another = source_of_alternatives(config)
     drawing, problem = _posed(drawing, config)
-    answers = best_answers(problem, parts_of(problem, config.bridges), config.exact.budget, k)
+    answers = best_answers(
+        problem,
+        parts_of(problem, config.bridges),
+        lambda part, others: another(part, config, others),
+        k,
+    )
     if not answers or not problem.is_allowed(answers[0].mate):
         raise _refusal(problem, config)
     return tuple(
-        _solution(drawing, problem, answer, config, "exact")
+        _solution(drawing, problem, answer, config, solver)
         for answer in answers
         if problem.is_allowed(answer.mate)
     )
@@ -74,6 +83,7 @@ def _posed(drawing: Drawing, config: DecompositionConfig) -> tuple[Drawing, Prob
     """The drawing, with bridges if they are asked for, and the problem that it poses."""
     if not any(segment.kind == "stroke" for segment in drawing.segments):
         raise DecompositionError("the drawing has no lines to make wires of", remedy="draw at least one line")
+    check_solver(config)
     if config.bridges:
         drawing = with_bridges(drawing)
     graph = graph_of(drawing)
@@ -116,31 +126,21 @@ def _solution(
     )
 
 
-def _exact(problem: Problem, config: DecompositionConfig, _: np.random.Generator) -> Answer | None:
-    return solve_exactly(problem, config.exact.budget)
-
-
-def _annealed(problem: Problem, config: DecompositionConfig, rng: np.random.Generator) -> Answer:
-    """Annealing proves nothing; what local reasoning proves, in no time, says how good it is."""
-    answer = anneal(problem, config.annealing, rng)
-    return replace(answer, lower_bound=certified(problem).lower_bound)
-
-
-SOLVERS: dict[SolverName, Solver] = {"exact": _exact, "annealing": _annealed}
-
-
 def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionError:
-    """Names the fewest constraints that can't be met together: each of them is needed for that."""
+    """Names the fewest constraints that can't be met together: each of them is needed for that.
+
+    Where nothing is proved about them, it says that none were found, and how to find more.
+    """
     kept = list(enumerate(config.constraints))
-    if _can_be_met(problem, config, [constraint for _, constraint in kept]):
+    if not _is_impossible(problem, config, [constraint for _, constraint in kept]):
         return DecompositionError(
             f"the solver {config.solver} found no wires that meet all constraints",
             "decomposition.constraints",
-            "use solver: exact, or raise decomposition.exact.budget",
+            more_thorough(config),
         )
     for entry in list(kept):
         fewer = [other for other in kept if other is not entry]
-        if not _can_be_met(problem, config, [constraint for _, constraint in fewer]):
+        if _is_impossible(problem, config, [constraint for _, constraint in fewer]):
             kept = fewer
     named = " and ".join(f"constraints.{index} ({_said(constraint)})" for index, constraint in kept)
     return DecompositionError(
@@ -150,15 +150,16 @@ def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionErro
     )
 
 
-def _can_be_met(
+def _is_impossible(
     problem: Problem, config: DecompositionConfig, constraints: Sequence[ConstraintConfig]
 ) -> bool:
-    graph: Graph = problem.graph
-    asked = replace(problem, rules=rules_of(graph, constraints, config.bridges))
+    """Whether no wires can meet the constraints, proved; a search that ran out of work proves nothing."""
+    asked = replace(problem, rules=rules_of(problem.graph, constraints, config.bridges))
+    solver, rng = exhaustive_solver(config), np.random.default_rng(config.seed)
     answer = solve_piecewise(
-        asked, parts_of(asked, config.bridges), lambda part: solve_exactly(part, config.exact.budget)
+        asked, parts_of(asked, config.bridges), lambda part: solver.solve(part, config, rng)
     )
-    return answer is not None and asked.is_allowed(answer.mate)
+    return answer is None
 
 
 def _said(constraint: ConstraintConfig) -> str:

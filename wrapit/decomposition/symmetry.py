@@ -10,13 +10,17 @@ from typing import Literal
 import numpy as np
 
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.model import NO_MATE, half_edges
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 
 Direction = Literal["auto", "vertical", "horizontal"]
 
-_TOLERANCE = 0.04  # of the longest side: hand-drawn halves differ
+# When two segments are images of one another: points spread evenly along them, and how far apart the points
+# may be, as a share of the longest side, since hand-drawn halves differ. On 30 icons the same 15 are
+# mirrored throughout from 0.02 to 0.052; at 0.01 two of them are lost, at 0.08 a fish is taken for
+# mirrored. From 5 to 17 points 282 or 283 segments find an image: nothing hangs on their number.
+_TOLERANCE = 0.04
 _PARTS = 9
 
 
@@ -89,8 +93,9 @@ def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ..
     mirror = [NO_MATE] * (2 * len(lines))
     for e, f in enumerate(nearest.tolist()):
         if nearest[f] == e and distance[e, f] <= tolerance_mm:
+            first, last = half_edges(e)
             flip = int(turned[e, f] < same[e, f])
-            mirror[2 * e], mirror[2 * e + 1] = 2 * f + flip, 2 * f + 1 - flip
+            mirror[first], mirror[last] = half_edges(f)[flip], half_edges(f)[1 - flip]
     return tuple(mirror)
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.exact.ring_bound import ring_of
 from wrapit.decomposition.graph import Graph
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.model import NO_MATE, Pair, half_edges, ordered
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import Pair, in_use, wire_through
+from wrapit.decomposition.rules import SLACK_MM, in_use, wire_through
 from wrapit.decomposition.trails import trails_of, walk
 
 Weak = tuple[tuple[int, ...], int]
@@ -60,7 +60,7 @@ def weak_cuts(
         if (segments, junction, tie) in paid:
             continue
         paid.add((segments, junction, tie))
-        inside = {h for e in segments for h in (2 * e, 2 * e + 1)}
+        inside = {h for e in segments for h in half_edges(e)}
         transitions = dict.fromkeys(_within(graph, inside), 1.0) | dict.fromkeys(_across(graph, inside), -1.0)
         junctions = {graph.junction_of[h] for h in inside} - {junction}
         bridges = {
@@ -82,7 +82,7 @@ def rule_cuts(problem: Problem, mate: Sequence[int]) -> Iterator[Cut]:
     for e, f in rules.same:
         wire = wire_through(mate, e)
         if f not in wire:
-            across = _across(graph, {h for s in wire for h in (2 * s, 2 * s + 1)})
+            across = _across(graph, {h for s in wire for h in half_edges(s)})
             yield Cut(dict.fromkeys(across, -1.0), -1.0)
     if rules.longest_mm is not None:
         yield from _length_cuts(graph, mate, rules.longest_mm)
@@ -119,9 +119,9 @@ def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterat
             continue
         wire = wire_through(mate, e)
         seen |= wire
-        if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + 1e-9:
+        if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + SLACK_MM:
             continue
-        inside = {h for f in wire for h in (2 * f, 2 * f + 1)}
+        inside = {h for f in wire for h in half_edges(f)}
         strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.bridges))
         needed = math.ceil(strokes / longest_mm - 1e-9)
         if needed > 1:
@@ -171,4 +171,4 @@ def _within(graph: Graph, inside: set[int]) -> list[Pair]:
 
 def _across(graph: Graph, inside: set[int]) -> list[Pair]:
     """Transitions between one of the half-edges and one of the others."""
-    return [(min(a, b), max(a, b)) for a in sorted(inside) for b in graph.bends_rad[a] if b not in inside]
+    return [ordered(a, b) for a in sorted(inside) for b in graph.bends_rad[a] if b not in inside]

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.graph import Graph
+from wrapit.decomposition.problem import CLOSE
 from wrapit.decomposition.trails import walk
 
 
@@ -76,9 +77,9 @@ class Pendants:
             self.strange.append((list(steps), junction))
             return False
         cost = min([self._weak_cost, *(self._costs.second_loss(j) for j in sorted(inside))])
-        if cost < self._weak_cost - 1e-9:
+        if cost < self._weak_cost - CLOSE:
             self._undecided[tuple(doors)] = tuple(sorted(inside))
-        if cost < 1e-9:
+        if cost < CLOSE:
             self._known.add(tuple(doors))
             return False
         self._charge(doors, cost)

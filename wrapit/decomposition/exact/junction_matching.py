@@ -10,14 +10,21 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 
-from wrapit.decomposition.model import NO_MATE
+from wrapit.decomposition.model import NO_MATE, Pair, ordered
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import Pair
 
 Matching = tuple[Pair, ...]
 
 ENUMERATED_DEGREE = 8
-"""Up to this degree all matchings at a junction are listed (764 of them)."""
+"""Up to this degree all matchings at a junction are listed (764 of them), where more than the best is asked.
+
+With 6 / 7 / 8 / 9 local reasoning leaves 46 / 42 / 37 / 30 of 145 graphs to integer programming, in the
+same time to 6 % all told; at 9 there are 2620 matchings.
+"""
+
+# How the best matching is found: up to the first degree among all of them, up to the second by subsets,
+# beyond by integer programming. On those 145 graphs the first makes no difference from 3 to 7; the second
+# none from 10 to 15, but at 18 the subsets take twice the time of everything else.
 _QUICK_DEGREE = 5
 _SOLVED_DEGREE = 15
 
@@ -117,7 +124,7 @@ class LocalCosts:
 
     def penalise_ends(self, h: int, other: int, cost: float) -> None:
         """Wire ends at both half-edges cost `cost` more."""
-        low, high = min(h, other), max(h, other)
+        low, high = ordered(h, other)
         self.loose[low] = (high, self.loose.get(low, (high, 0.0))[1] + cost)
         self._forget(h)
 
@@ -193,9 +200,9 @@ class LocalCosts:
         if other in rest:
             yield self.free[h] + self.free[other] + both, (h, other), ()
             for b in rest:
-                if b in self.pair[other] and (min(b, other), max(b, other)) != without:
+                if b in self.pair[other] and ordered(b, other) != without:
                     cost = self.free[h] + self.pair[other][b]
-                    yield cost, (h, other, b), ((min(b, other), max(b, other)),)
+                    yield cost, (h, other, b), (ordered(b, other),)
         else:
             yield self.free[h], (h,), ()
         for b in rest:
@@ -213,11 +220,11 @@ class LocalCosts:
                 if a < b:
                     programme.add_column(("pair", a, b), cost - self.free[a] - self.free[b])
         for h in ends:
-            programme.add_row({("pair", min(h, b), max(h, b)): 1.0 for b in self.pair[h]}, high=1.0)
+            programme.add_row({("pair", *ordered(h, b)): 1.0 for b in self.pair[h]}, high=1.0)
         for h, (other, both) in self.loose.items():
             if h in ends:
                 programme.add_column(("loose", h), both)
-                touching = {("pair", min(x, b), max(x, b)): 1.0 for x in (h, other) for b in self.pair[x]}
+                touching = {("pair", *ordered(x, b)): 1.0 for x in (h, other) for b in self.pair[x]}
                 programme.add_row({**touching, ("loose", h): 1.0}, low=1.0)
         values = programme.solve(10**6).values
         assert values is not None

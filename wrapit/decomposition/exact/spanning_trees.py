@@ -37,7 +37,7 @@ class Link:
         return self.loss / self.rank
 
 
-class Branch(NamedTuple):
+class TreeBranch(NamedTuple):
     """One branch of a spanning tree."""
 
     u: int
@@ -52,7 +52,7 @@ def by_share(links: Iterable[Link]) -> list[Link]:
 
 def spanning_tree(
     links: Iterable[Link], rings: int, opening: Link | None = None
-) -> tuple[float, list[Branch]]:
+) -> tuple[float, list[TreeBranch]]:
     """Kruskal: weight and branches of a minimum spanning tree; `links` come by share.
 
     What `opening` links is taken as done, and nothing else happens at its junction.
@@ -71,12 +71,12 @@ def spanning_tree(
             for node in group[1:]:
                 if sets.merge(group[0], node):
                     weight += link.share
-                    tree.append(Branch(group[0], node, link))
+                    tree.append(TreeBranch(group[0], node, link))
                     missing -= 1
     return weight, tree
 
 
-def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, list[Branch]]:
+def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, list[TreeBranch]]:
     """A drawing of rings only has to be opened somewhere: the least bound over the places to do it.
 
     Returns the bound, the link that opens, and the tree that links the rest. The junction that opens
@@ -91,7 +91,7 @@ def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, li
     def at_least(link: Link) -> float:
         return link.loss + plain - dearest * link.rank
 
-    def opened(link: Link) -> tuple[float, Link, list[Branch]]:
+    def opened(link: Link) -> tuple[float, Link, list[TreeBranch]]:
         rest, rest_tree = spanning_tree(links, rings, link)
         return link.loss + rest, link, rest_tree
 
@@ -113,7 +113,7 @@ def cheapest_opening(links: Sequence[Link], rings: int) -> tuple[float, Link, li
 class _Rooted:
     """A spanning tree hung up at the ground."""
 
-    def __init__(self, tree: Iterable[Branch]) -> None:
+    def __init__(self, tree: Iterable[TreeBranch]) -> None:
         beside: dict[int, list[tuple[int, float]]] = {}
         for u, w, link in tree:
             beside.setdefault(u, []).append((w, link.share))

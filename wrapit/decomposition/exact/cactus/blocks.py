@@ -10,7 +10,7 @@ Doors = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Block:
+class HangingBlock:
     """One ring, or one segment on no ring, as it hangs on a junction.
 
     `doors` are its half-edges at that junction, two or one; `junctions` are its others, of a ring in
@@ -30,7 +30,7 @@ class Cactus:
     """
 
     order: list[int] = field(default_factory=list)
-    hanging: dict[int, list[Block]] = field(default_factory=dict)
+    hanging: dict[int, list[HangingBlock]] = field(default_factory=dict)
     doors: dict[int, Doors] = field(default_factory=dict)
 
 
@@ -66,12 +66,12 @@ def as_cactus(graph: Graph) -> Cactus | None:
                 junctions.append(bottom)
                 end = up[bottom] ^ 1
                 bottom = junction_of[end]
-            hanging[top].append(Block((h ^ 1, end), tuple(junctions)))
+            hanging[top].append(HangingBlock((h ^ 1, end), tuple(junctions)))
         else:
             stack.pop()
     for junction in cactus.order[1:]:
         if junction not in doors:
             h = up[junction]
             doors[junction] = (h,)
-            hanging[junction_of[h ^ 1]].append(Block((h ^ 1,), (junction,)))
+            hanging[junction_of[h ^ 1]].append(HangingBlock((h ^ 1,), (junction,)))
     return cactus

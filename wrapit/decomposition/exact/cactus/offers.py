@@ -11,6 +11,8 @@ from wrapit.decomposition.exact.cactus.options import ENOUGH, Kind, Option, surc
 from wrapit.decomposition.exact.cactus.passages import Passage
 from wrapit.decomposition.exact.junction_matching import Matching
 
+# The kinds of options by the number of own doors: where there are none, all is closed; one door is passed
+# by no wire.
 _KINDS: tuple[tuple[Kind, ...], ...] = (
     ((False, ENOUGH),),
     tuple(product((False,), range(ENOUGH + 1))),

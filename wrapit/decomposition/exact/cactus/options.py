@@ -10,7 +10,7 @@ from typing import NamedTuple
 from wrapit.decomposition.exact.junction_matching import Matching
 
 ENOUGH = 2
-"""A wire with so many contacts isn't weak."""
+"""A wire with so many contacts isn't weak; more needn't be told apart."""
 
 
 Kind = tuple[bool, int]

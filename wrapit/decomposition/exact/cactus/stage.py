@@ -10,15 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from wrapit.decomposition.exact.cactus.blocks import Block, as_cactus
-from wrapit.decomposition.exact.cactus.cut_junction import OutOfWorkError, Work, options_at
+from wrapit.decomposition.exact.cactus.blocks import HangingBlock, as_cactus
+from wrapit.decomposition.exact.cactus.cut_junction import OutOfWorkError, WorkCounter, options_at
 from wrapit.decomposition.exact.cactus.modes import Branch
 from wrapit.decomposition.exact.cactus.options import ENOUGH, Option, useful
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.model import NO_MATE
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.problem import CLOSE, Answer, Problem
 
-_WORK = 40  # choices looked at for each segment
+# Choices looked at for each segment, and at least, before the junctions with many ends are left to others.
+# On 145 graphs (29 of them of this kind, up to 214 segments) 0 to 52 and 2000 to 26 000 prove the same in
+# the same time.
+_WORK = 40
 _LEAST_WORK = 20_000
 
 
@@ -32,7 +35,7 @@ def solved_by_blocks(problem: Problem) -> Answer | None:
     if cactus is None:
         return None
     pair = LocalCosts(problem).pair
-    work = Work(_LEAST_WORK + _WORK * graph.segments)
+    work = WorkCounter(_LEAST_WORK + _WORK * graph.segments)
     options: dict[int, list[Option]] = {}
     try:
         for junction in reversed(cactus.order):
@@ -47,10 +50,10 @@ def solved_by_blocks(problem: Problem) -> Answer | None:
     for a, b in _pairs(best):
         mate[a], mate[b] = b, a
     least, energy = graph.segments + best.cost, problem.energy(mate).total
-    return Answer(tuple(mate), work.done, min(least, energy), energy - least < 1e-9)
+    return Answer(tuple(mate), work.done, min(least, energy), energy - least < CLOSE)
 
 
-def _hanging(block: Block, options: Mapping[int, list[Option]], weak_cost: float) -> list[Option]:
+def _hanging(block: HangingBlock, options: Mapping[int, list[Option]], weak_cost: float) -> list[Option]:
     """What a block can do, from what the junctions along it can."""
     if len(block.doors) == 1:
         return options[block.junctions[0]]

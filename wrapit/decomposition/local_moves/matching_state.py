@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from wrapit.decomposition.annealing.branches import smallest_branches
-from wrapit.decomposition.model import NO_MATE
-from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.local_moves.branches import smallest_branches
+from wrapit.decomposition.model import NO_MATE, half_edges, ordered
+from wrapit.decomposition.problem import CLOSE, Problem
 from wrapit.decomposition.rules import NO_RULES, broken
 from wrapit.decomposition.symmetry import is_unlike, mirrored_junctions
 
+# Energy that a broken rule costs: more than a move can save. On 118 small graphs with rules that can be
+# kept, a short annealing kept them in 84 / 101 / 113 / 117 with 1 / 2 / 3 / 5, and in all with 10 to 100.
 _PENALTY = 20.0
 
 
@@ -21,7 +23,7 @@ def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
         improved = False
         for a, partners in enumerate(wires.partners):
             for b in partners:
-                if a < b and wires.toggle(a, b, -1e-9):
+                if a < b and wires.toggle(a, b, -CLOSE):
                     improved = True
     return wires.mate
 
@@ -52,7 +54,7 @@ class Wires:
             {
                 b: 1.0 - weights.smoothness * bend
                 for b, bend in bends.items()
-                if (min(a, b), max(a, b)) not in problem.rules.forbidden
+                if ordered(a, b) not in problem.rules.forbidden
             }
             for a, bends in enumerate(graph.bends_rad)
         ]
@@ -79,7 +81,7 @@ class Wires:
         mate, saved = self.mate, self._saved
         changes: list[tuple[int, int]] = []
         delta = 0.0
-        for h in (2 * bridge, 2 * bridge + 1):
+        for h in half_edges(bridge):
             if (other := mate[h]) != NO_MATE:
                 changes += [(h, NO_MATE), (other, NO_MATE)]
                 delta += saved[h][other]
@@ -148,11 +150,12 @@ class Wires:
         return _PENALTY * broken(problem.graph, problem.rules, self.mate) + problem.weights.symmetry * unlike
 
     def _in_use(self, bridge: int) -> bool:
-        return self.mate[2 * bridge] != NO_MATE or self.mate[2 * bridge + 1] != NO_MATE
+        start, end = half_edges(bridge)
+        return self.mate[start] != NO_MATE or self.mate[end] != NO_MATE
 
     def _around(self, touched: Iterable[int], toggled: Iterable[int]) -> list[int]:
         junction_of, incident = self._graph.junction_of, self._graph.incident
-        junctions = {junction_of[h] for e in toggled for h in (2 * e, 2 * e + 1)}
+        junctions = {junction_of[h] for e in toggled for h in half_edges(e)}
         return [*touched, *(h for junction in sorted(junctions) for h in incident[junction])]
 
     def _closes_ring(self, changes: list[tuple[int, int]]) -> bool:
@@ -203,7 +206,7 @@ class Wires:
         junction_of, incident = self._graph.junction_of, self._graph.incident
         counts: dict[int, int] = {}
         for e in segments:
-            for h in (2 * e, 2 * e + 1):
+            for h in half_edges(e):
                 junction = junction_of[h]
                 counts[junction] = counts.get(junction, 0) + 1
         bridges = self._graph.bridges

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,9 +10,6 @@ from hypothesis import strategies as st
 from tests.bench.graphs import FAMILIES, all_even, random_multigraph
 from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition
 from wrapit.decomposition.energy import energy_of
-from wrapit.decomposition.exact.branch_and_bound import certified
-from wrapit.decomposition.exact.highs import silent_stdout
-from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import Weights
@@ -49,37 +44,6 @@ def test_nothing_is_better_than_the_answer(
         assert answer.lower_bound == pytest.approx(best, abs=1e-8)
 
 
-@settings(deadline=None, max_examples=150)
-@given(
-    seed=st.integers(0, 10**9), segments=st.integers(1, 6), junctions=st.integers(1, 6), even=st.booleans()
-)
-def test_what_local_reasoning_proves_is_true(seed: int, segments: int, junctions: int, even: bool) -> None:
-    if segments == 6 and junctions == 1:
-        junctions = 2
-    graph = (all_even if even else random_multigraph)(np.random.default_rng(seed), segments, junctions)
-    for piece in whole_pieces(graph):
-        answer = certified(Problem(piece, WEIGHTS))
-        best = best_by_trying(piece, WEIGHTS)
-        assert answer.lower_bound is not None
-        assert answer.lower_bound <= best + 1e-9
-        assert energy_by_definition(piece, answer.mate, WEIGHTS) >= best - 1e-9
-
-
-@pytest.mark.parametrize("degree", [3, 6, 9, 16])
-def test_a_star_is_matched_best_at_any_degree(degree: int) -> None:
-    angles = np.sort(np.random.default_rng(degree).uniform(0, 2 * np.pi, degree))
-    tangents = np.repeat(np.stack([np.cos(angles), np.sin(angles)], axis=1), 2, axis=0)
-    tangents[1::2] *= -1
-    star = Graph(tuple(j for e in range(degree) for j in (0, e + 1)), tangents, (1.0,) * degree)
-    answer = solve_exactly(Problem(star, Weights(0.1, 0.0)), BUDGET)
-    found = energy_of(star, answer.mate, Weights(0.1, 0.0))
-    assert found.complexity == (degree + 1) // 2
-    assert answer.lower_bound == pytest.approx(found.total)
-    if degree <= 9:
-        least, _ = min(LocalCosts(Problem(star, Weights(0.1, 0.0))).matchings(0))
-        assert found.total == pytest.approx(degree + least)
-
-
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("segments", [12, 54, 200])
 def test_drawings_of_every_kind_are_proven(family: str, segments: int) -> None:
@@ -109,21 +73,6 @@ def test_the_judge_sees_every_matching() -> None:
     two = Graph((0, 1, 0, 1), np.eye(2).repeat(2, axis=0), (1.0, 1.0))
     assert sum(1 for _ in all_matchings(two)) == 4
     assert sum(energy_by_definition(two, mate, WEIGHTS) is None for mate in all_matchings(two)) == 1
-
-
-def test_integer_programming_prints_nothing(capfd: pytest.CaptureFixture[str]) -> None:
-    graph = random_multigraph(np.random.default_rng(28), 14, 7)
-    graph = graph.subgraph(max(pieces(graph), key=len))
-    answer = solve_exactly(Problem(graph, WEIGHTS), BUDGET)
-    library = ctypes.CDLL(None)
-    with silent_stdout():
-        library.puts(b"HiGHS says something")
-    library.fflush(None)
-    assert answer is not None
-    assert not certified(Problem(graph, WEIGHTS)).proven  # else this tests nothing
-    assert answer.proven
-    out, err = capfd.readouterr()
-    assert (out, err) == ("", "")
 
 
 def test_the_same_graph_has_the_same_answer() -> None:

@@ -11,78 +11,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.bench.graphs import all_even, random_multigraph
-from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition, wires_of
-from wrapit.config.decomposition import AnnealingConfig
-from wrapit.decomposition.annealing.stage import anneal
+from tests.decomposition.brute import all_matchings, best_by_trying, energy_by_definition
+from tests.decomposition.cases import closed_up, connected, obeys, some_rules, with_some_bridges
 from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import Graph, pieces
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import Rules
 from wrapit.decomposition.symmetry import mirrored_junctions
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
 BUDGET = 2_000_000
-
-
-def connected(seed: int, segments: int, junctions: int) -> Graph:
-    graph = (all_even if seed % 3 == 0 else random_multigraph)(
-        np.random.default_rng(seed), segments, junctions
-    )
-    return graph.subgraph(max(pieces(graph), key=len))
-
-
-def some_rules(graph: Graph, rng: np.random.Generator) -> Rules:
-    """A handful of wishes, which may well contradict one another."""
-    pairs = [(a, b) for a, mates in enumerate(graph.bends_rad) for b in mates if a < b]
-    segments = range(graph.segments)
-
-    def pick(things: Sequence[object], chance: float) -> tuple[object, ...]:
-        return tuple(thing for thing in things if rng.random() < chance / max(1, len(things)))
-
-    couples = [(e, f) for e in segments for f in segments if e < f]
-    longest = max(graph.lengths_mm) * rng.uniform(1.0, 2.5) if rng.random() < 0.4 else None
-    return Rules(
-        forbidden=frozenset(pick(pairs, 1.0)),
-        required=tuple((pair,) for pair in pick(pairs, 0.5)),
-        ends=pick([ends for ends in graph.incident if ends], 0.7),
-        same=pick(couples, 0.6),
-        apart=pick(couples, 0.6),
-        longest_mm=longest,
-    )
-
-
-def obeys(graph: Graph, rules: Rules, mate: Sequence[int]) -> bool:
-    """The rules by their definition."""
-    wires = wires_of(graph, mate)
-    assert wires is not None
-    used = set().union(*wires)
-    wire_of = {e: index for index, wire in enumerate(wires) for e in wire}
-    return (
-        all(mate[a] != b for a, b in rules.forbidden)
-        and all(any(mate[a] == b for a, b in group) for group in rules.required)
-        and all(any(mate[h] < 0 and h // 2 in used for h in ends) for ends in rules.ends)
-        and all(e in used and wire_of[e] == wire_of.get(f) for e, f in rules.same)
-        and all(wire_of.get(e, -1) != wire_of.get(f, -2) for e, f in rules.apart)
-        and (
-            rules.longest_mm is None
-            or all(sum(graph.lengths_mm[e] for e in wire) <= rules.longest_mm + 1e-6 for wire in wires)
-        )
-    )
-
-
-def with_some_bridges(graph: Graph, rng: np.random.Generator) -> Graph:
-    """Up to two segments that join two junctions become bridges, as long as a stroke is left at each."""
-    bridges: set[int] = set()
-    for e in rng.permutation(graph.segments)[:2].tolist():
-        ends = {graph.junction_of[2 * e], graph.junction_of[2 * e + 1]}
-        strokes_stay = all(
-            any(h // 2 != e and h // 2 not in bridges for h in graph.incident[j]) for j in ends
-        )
-        if len(ends) == 2 and strokes_stay:
-            bridges.add(e)
-    return replace(graph, bridges=frozenset(bridges))
 
 
 @settings(deadline=None, max_examples=70)
@@ -125,33 +63,6 @@ def test_rules_are_obeyed_at_the_least_cost(seed: int, segments: int, junctions:
         assert energy_by_definition(graph, answer.mate, WEIGHTS) == pytest.approx(best, abs=1e-8)
 
 
-@settings(deadline=None, max_examples=25)
-@given(seed=st.integers(0, 10**9), segments=st.integers(2, 5), junctions=st.integers(2, 5))
-def test_annealing_obeys_rules_too(seed: int, segments: int, junctions: int) -> None:
-    rng = np.random.default_rng(seed)
-    graph = connected(seed, segments, junctions)
-    rules = some_rules(graph, rng)
-    best = best_by_trying(graph, WEIGHTS, lambda mate: obeys(graph, rules, mate))
-    schedule = AnnealingConfig(temperature=30.0, cooling=2e-3, end_temperature=1e-2)
-    answer = anneal(Problem(graph, WEIGHTS, rules), schedule, rng)
-    if not math.isinf(best):
-        assert obeys(graph, rules, answer.mate)
-
-
-def test_annealing_finds_bridges() -> None:
-    found = 0
-    for seed in range(12):
-        graph = with_some_bridges(connected(seed, 6, 5), np.random.default_rng(seed))
-        best = best_by_trying(graph, WEIGHTS)
-        schedule = AnnealingConfig(temperature=5.0, cooling=1e-3, end_temperature=1e-3)
-        answer = anneal(Problem(graph, WEIGHTS), schedule, np.random.default_rng(1))
-        energy = energy_by_definition(graph, answer.mate, WEIGHTS)
-        assert energy is not None
-        assert energy >= best - 1e-9
-        found += energy < best + 1e-6
-    assert found >= 10
-
-
 @settings(deadline=None, max_examples=40)
 @given(seed=st.integers(0, 10**9), segments=st.integers(1, 5), junctions=st.integers(2, 5))
 def test_alternatives_come_in_order_and_miss_none(seed: int, segments: int, junctions: int) -> None:
@@ -170,18 +81,6 @@ def test_alternatives_come_in_order_and_miss_none(seed: int, segments: int, junc
     energies = [energy_by_definition(graph, mate, WEIGHTS) for mate in found]
     assert energies == pytest.approx(expected, abs=1e-8)
     assert len({closed_up(graph, mate) for mate in found}) == len(found)
-
-
-def closed_up(graph: Graph, mate: Sequence[int]) -> frozenset[tuple[int, int]]:
-    """The transitions with closed wires closed, which says what a decomposition looks like."""
-    pairs = {(a, b) for a, b in enumerate(mate) if a < b}
-    wires = wires_of(graph, mate)
-    assert wires is not None
-    for wire in wires:
-        a, b = sorted(h for e in wire for h in (2 * e, 2 * e + 1) if mate[h] < 0)
-        if graph.junction_of[a] == graph.junction_of[b] and a // 2 != b // 2:
-            pairs.add((a, b))
-    return frozenset(pairs)
 
 
 @settings(deadline=None, max_examples=60)

@@ -7,22 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.bench.graphs import cactus, closed_curves, flowers, random_multigraph
+from tests.bench.graphs import cactus, flowers, random_multigraph
 from tests.decomposition.brute import best_by_trying, energy_by_definition
+from tests.decomposition.exact.cactus.test_blocks import largest_piece
 from wrapit.decomposition.exact.branch_and_bound import certified
-from wrapit.decomposition.exact.cactus.blocks import as_cactus
 from wrapit.decomposition.exact.cactus.stage import solved_by_blocks
 from wrapit.decomposition.exact.integer_programme import solve_by_cuts
-from wrapit.decomposition.graph import Graph, pieces
+from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, Weights
 from wrapit.decomposition.problem import Answer, Problem
 from wrapit.decomposition.rules import Rules
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
-
-
-def largest_piece(graph: Graph) -> Graph:
-    return graph.subgraph(max(pieces(graph), key=len))
 
 
 @settings(deadline=None, max_examples=300)
@@ -72,22 +68,6 @@ def test_forbidden_transitions_are_kept() -> None:
     best = best_by_trying(graph, WEIGHTS, lambda mate: all(mate[a] != b for a, b in forbidden))
     assert answer.lower_bound == pytest.approx(best, abs=1e-8)
     assert all(answer.mate[a] != b for a, b in forbidden)
-
-
-def test_blocks_hold_each_half_edge_once() -> None:
-    graph = largest_piece(cactus(np.random.default_rng(2), 300))
-    blocks = as_cactus(graph)
-    assert blocks is not None
-    for junction, ends in enumerate(graph.incident):
-        here = [*blocks.doors[junction], *(h for block in blocks.hanging[junction] for h in block.doors)]
-        assert sorted(here) == list(ends)
-    assert sorted(blocks.order) == list(range(len(graph.incident)))
-
-
-def test_rings_that_share_a_segment_are_left_to_others() -> None:
-    assert as_cactus(largest_piece(closed_curves(np.random.default_rng(1), 40))) is None
-    theta = Graph((0, 1, 0, 1, 0, 1), np.eye(2).repeat(3, axis=0), (1.0, 1.0, 1.0))
-    assert solved_by_blocks(Problem(theta, WEIGHTS)) is None
 
 
 def test_a_junction_of_many_segments_is_left_to_others() -> None:
