@@ -18,8 +18,12 @@ from wrapit.kernel.steptext import canonical_step, carried
 
 __all__ = ["FilePart", "write_3mf", "write_step", "write_stl"]
 
+# How coarse may facets be? STL is for printing: at 0.005 mm, 0.2 makes 104 144 triangles of four jigs (0.14:
+# 114 518, 0.5: 96 346), all of them closed; the distance is the config's. 3MF holds text, so half as many
+# triangles, which are within 0.02 mm of the surface (volumes right to 1e-4).
 STL_ANGLE_RAD = 0.2
 COARSE_TOLERANCE_MM, COARSE_ANGLE_RAD = 0.02, 0.3
+# The first date that a ZIP can hold; same parts, same bytes.
 _ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 
 
@@ -105,6 +109,7 @@ def _model(parts: Sequence[FilePart], meshes: Sequence[Mesh]) -> str:
     return "\n".join([*lines, "</build>", "</model>", ""])
 
 
+# The parts of the package that every 3MF has (Open Packaging Conventions): fixed text.
 _CONTENT_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
 <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
