@@ -73,7 +73,32 @@ def left_out(house: Path) -> Iterator[str]:
             yield str(path.relative_to(house))
 
 
-@pytest.mark.parametrize("disorder", [crowded, ambiguous, long, without_page, left_out])
+# Rooms whose constants all say which question they answer, or what set them.
+EXPLAINED = ("kernel", "exports", "instructions", "cli", "config")
+CONSTANT = re.compile(r"_?[A-Z][A-Z0-9_]+(?:, _?[A-Z][A-Z0-9_]+)*(?:: .*?)? = ")
+
+
+def unexplained(house: Path) -> Iterator[str]:
+    """Constants without a comment: above them or their group, behind them, or as a text below."""
+    for path in (path for room in EXPLAINED for path in modules(house / room)):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        said = False
+        for index, line in enumerate(lines):
+            if not CONSTANT.match(line):
+                said = line.startswith("#") or (said and line.startswith((" ", ")", "}", "]")))
+                continue
+            behind = "  # " in line
+            group = [*lines[index + 1 :], ""]
+            below = next(
+                after
+                for after in group
+                if not CONSTANT.match(after) and not after.startswith((" ", ")", "}"))
+            )
+            if not (said or behind or below.startswith('"""')):
+                yield f"{path.relative_to(house)}:{index + 1} {line.partition(' =')[0]}"
+
+
+@pytest.mark.parametrize("disorder", [unexplained, crowded, ambiguous, long, without_page, left_out])
 def test_the_house_is_in_order(disorder: Callable[[Path], Iterator[str]]) -> None:
     assert list(disorder(HOUSE)) == []
 
@@ -89,6 +114,11 @@ def test_disorder_is_noticed(tmp_path: Path) -> None:
     (tmp_path / "half" / "half_1.py").unlink()
     (tmp_path / "config" / "half_2.py").touch()
     (tmp_path / "half" / "stage.py").touch()
+    (tmp_path / "cli").mkdir()
+    (tmp_path / "cli" / "main.py").write_text(
+        "# Why.\nAA, BB = 1, 2\nCC = 3\n\nDD = 4\nEE = 5  # so\n\nFF = {\n    1: 2,\n}\n"
+    )
+    assert list(unexplained(tmp_path)) == ["cli/main.py:5 DD", "cli/main.py:8 FF"]
     assert list(crowded(tmp_path)) == ["full has 16 modules", "half has 16 modules"]
     assert list(ambiguous(tmp_path)) == ["full/full_1.py and half/full_1.py"]
     assert list(long(tmp_path)) == ["half/full_1.py has 301 lines"]
