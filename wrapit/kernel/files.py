@@ -109,13 +109,15 @@ def _model(parts: Sequence[FilePart], meshes: Sequence[Mesh]) -> str:
     return "\n".join([*lines, "</build>", "</model>", ""])
 
 
-# The parts of the package that every 3MF has (Open Packaging Conventions): fixed text.
+# What kinds of parts the package has (Open Packaging Conventions).
 _CONTENT_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
 <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
 <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
 </Types>
 """
+
+# Where the package's model is.
 _RELATIONS = """<?xml version="1.0" encoding="UTF-8"?>
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
 <Relationship Target="/3D/3dmodel.model" Id="rel0"
