@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -79,6 +80,14 @@ def test_everything_that_is_offered_is_there_and_no_more() -> None:
     assert all(callable(getattr(wrapit, name)) for name in wrapit.__all__)
     with pytest.raises(AttributeError, match="no attribute 'bild'"):
         wrapit.bild  # noqa: B018  to look it up is what is tested
+
+
+@pytest.mark.parametrize("name", ["from_python", "handle"])
+def test_examples_need_no_more_than_is_offered(name: str) -> None:
+    text = (Path(__file__).parent.parent / "examples" / f"{name}.py").read_text()
+    (offered,) = re.findall(r"^from wrapit import (.*)$", text, re.MULTILINE)
+    assert set(offered.split(", ")) <= {*wrapit.__all__, "cad"}
+    assert re.findall(r"\bwrapit\.\w+", text) == []
 
 
 def test_the_stages_hand_on_what_the_next_one_takes(picture: Path) -> None:
