@@ -13,7 +13,7 @@ import pytest
 from shapely import LineString, Polygon
 
 from tests.exports.pieces_for_tests import arc_chain, eye
-from tests.exports.test_preview import PLATE, WALL
+from tests.exports.test_preview_png import PLATE, WALL
 from wrapit.exports.laser_profiles import PROFILES
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region

@@ -16,9 +16,9 @@ from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
 from wrapit.jig.model import Jig
 from wrapit.jig.printed.stage import build_jig
-from wrapit.kernel.files import FilePart, write_3mf, write_step, write_stl
+from wrapit.kernel.files import write_3mf, write_step, write_stl
 from wrapit.kernel.measures import volume_mm3
-from wrapit.kernel.steptext import canonical_step
+from wrapit.kernel.objects import FilePart
 from wrapit.kernel.sweeps import round_wire
 
 COPPER, GREY = "#b87333", "#c8ccd4"
@@ -65,17 +65,6 @@ def test_step_numbers_count_up_and_refer_backwards(tmp_path: Path, jig: Jig) -> 
         outside = re.sub(r"'(?:[^']|'')*'", "''", body.split("=", 1)[1])
         assert all(int(used) < number for used in re.findall(r"#(\d+)", outside))
     assert "jig #1; ''x''" in "".join(data)
-
-
-def test_canonical_step_forgets_the_order() -> None:
-    head = "HEADER;FILE_NAME('a','2026-01-01',(''),(''),'','','');ENDSEC;DATA;\n"
-    first = head + "#1=A('x');\n#2=B(#1,'#9');\n#3=C(#1);\nENDSEC;\nEND-ISO-10303-21;"
-    second = head + "#7=C(#8);\n#8=A('x');\n#5=B(#8,'#9');\nENDSEC;\nEND-ISO-10303-21;"
-    other = second.replace("B(#8", "B(#7")
-    assert canonical_step(first, "a") == canonical_step(second, "a")
-    assert canonical_step(first, "a") != canonical_step(other, "a")
-    assert "'#9'" in canonical_step(first, "a")
-    assert "2026" not in canonical_step(first, "a")
 
 
 def test_stl_is_binary_closed_and_near(tmp_path: Path, jig: Jig) -> None:

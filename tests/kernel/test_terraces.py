@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 from wrapit.errors import KernelError
-from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.geometry.outlines.parallels import as_chain
-from wrapit.kernel.edges import region_face
-from wrapit.kernel.guard import guarded
-from wrapit.kernel.measures import count_solids, is_valid, size_mm, volume_mm3
+from wrapit.geometry import Arc, Line, Loop, Region
+from wrapit.kernel.measures import count_solids, is_valid, size_mm
 from wrapit.kernel.meshes import mesh_of
 from wrapit.kernel.terraces import Terrace, terraced_solid
 
@@ -49,26 +45,6 @@ def test_clockwise_outlines_are_turned_round() -> None:
     assert made.volume_mm3 == pytest.approx(2 * (100 - math.pi))
 
 
-def test_faces_of_splines_have_the_right_area() -> None:
-    chain = as_chain(Arc((3.0, 1.0), 7.0, 0.2, 2 * math.pi))
-    assert isinstance(chain, BezierChain)
-    assert abs(_area(region_face(Region(Loop((chain,)))))) == pytest.approx(49 * math.pi, rel=1e-9)
-
-
-@pytest.mark.parametrize("at_start", [True, False])
-def test_slivers_in_an_outline_are_passed_over(at_start: bool) -> None:
-    points = as_chain(Arc((0.0, 0.0), 7.0, 0.0, math.pi)).points
-    sliver = np.arange(4)[:, None] * np.array([0.0, 2e-8])
-    if at_start:
-        points = np.concatenate([[points[0, 0] - sliver[::-1]], points])
-    else:
-        points = np.concatenate([points, [points[-1, 3] - sliver]])
-    ends = [(float(x), float(y)) for x, y in (points[-1, 3], points[0, 0])]
-    face = region_face(Region(Loop((BezierChain(points), Line(*ends)))))
-    assert is_valid(face)
-    assert abs(_area(face)) == pytest.approx(49 * math.pi / 2, rel=1e-6)
-
-
 def test_what_lies_outside_is_an_error_with_the_place() -> None:
     with pytest.raises(KernelError, match="jig seven"):
         terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, [], [disc(30, 5, 1)], "jig seven")
@@ -78,45 +54,3 @@ def test_overlapping_terraces_are_refused() -> None:
     overlapping = [Terrace(Region(box(2, 2, 6, 6)), 5.0), Terrace(Region(box(4, 4, 8, 8)), 5.0)]
     with pytest.raises(KernelError):
         terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, overlapping, [], "jig")
-
-
-def test_exceptions_of_the_kernel_become_errors() -> None:
-    from OCP.gp import gp_Dir
-
-    with (
-        pytest.raises(KernelError, match=r"wire-03: making a direction failed"),
-        guarded("making a direction", "wire-03"),
-    ):
-        gp_Dir(0, 0, 0)
-
-
-def test_mesh_notices_a_missing_face() -> None:
-    from OCP.BRep import BRep_Builder
-    from OCP.TopAbs import TopAbs_FACE
-    from OCP.TopExp import TopExp_Explorer
-    from OCP.TopoDS import TopoDS_Compound
-
-    made = terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, [], [], "plate")
-    open_box, builder = TopoDS_Compound(), BRep_Builder()
-    builder.MakeCompound(open_box)
-    explorer = TopExp_Explorer(made.solid, TopAbs_FACE)
-    explorer.Next()
-    while explorer.More():
-        builder.Add(open_box, explorer.Current())
-        explorer.Next()
-    with pytest.raises(KernelError, match="open edges"):
-        mesh_of([open_box], 0.01, 0.2)
-
-
-def _area(face: object) -> float:
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    properties = GProp_GProps()
-    BRepGProp.SurfaceProperties_s(face, properties)
-    return float(properties.Mass())
-
-
-def test_volume_of_a_prism() -> None:
-    made = terraced_solid(disc(0, 0, 5), 0.0, 4.0, [], [], "coin")
-    assert volume_mm3(made.solid) == pytest.approx(100 * math.pi, rel=1e-9)

@@ -14,7 +14,9 @@ from typing import NoReturn
 from wrapit.cli.commands import app, say
 from wrapit.errors import WrapItError
 
+# What shells give a program that Ctrl-C ended: 128 + SIGINT.
 INTERRUPTED = 130
+# System errors whose remedy isn't "check the path".
 _DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
 
 

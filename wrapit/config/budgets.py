@@ -19,8 +19,11 @@ DEEPEST: Final = 32
 MOST_NODES: Final = 10_000
 """Keys and values, each counted as often as aliases repeat it; a config has some hundred."""
 MOST_DIGITS: Final = 100
+"""Of one number; Python refuses to convert 4301, and no quantity of a config has more than some ten."""
 _NUMERIC: Final = re.compile(r"[-+]?[0-9.][-+0-9_.,:eExXoOa-fA-F]*")
+"""What the YAML library would take for a number."""
 _KEY: Final = re.compile(r"(?!(?:null|true|false)$)[^\W\d].*|<<", re.IGNORECASE)
+"""A word, or YAML's merge key; what YAML takes for null or a truth value is none."""
 
 
 def check_budgets(events: Iterable[Any], where: str) -> None:

@@ -19,6 +19,7 @@ from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened, shown
 
 LONGEST_OVERRIDE: Final = 10_000
+"""Letters; the longest that makes sense is a list of some hundred constraints."""
 
 _EXPECTED: Final = {
     "model_type": "a block of keys",

@@ -9,14 +9,17 @@ from typing import Final
 from wrapit.units import shown
 
 LONGEST_NAME: Final = 80
+"""Letters: what a title in the guide and a line of a terminal hold."""
 LONGEST_NAME_BYTES: Final = 200
 """In UTF-8: names of files are at most 255 bytes, and the program adds to the name."""
 LONGEST_PART_BYTES: Final = 255
 """Of a path between two slashes, on all common systems."""
 LONGEST_PATH: Final = 1000
+"""Letters; systems take 1024 bytes (macOS) or more for a whole path."""
 UNWRITABLE: Final = ("Cc", "Cs", "Zl", "Zp")
 """Control characters, halves of characters and ends of lines; odd spaces do occur, as in screenshots."""
 UNNAMED: Final = "piece"
+"""What is called so has a file name without any letter that a folder can have."""
 DEVICES: Final = frozenset(
     {"con", "prn", "aux", "nul", *(f"{port}{digit}" for port in ("com", "lpt") for digit in "0123456789¹²³")}
 )

@@ -17,6 +17,7 @@ GAUGE: Final = Unit(units.gauge_diameter_mm, units.in_mm, (" AWG", " mm"))
 CURVATURE: Final = Unit(units.curvature_per_mm, units.in_per_mm, (" /mm",))
 ANGLE: Final = Unit(units.angle_rad, units.in_degrees, (" deg",))
 TIME: Final = Unit(units.duration_s, units.in_seconds, (" s", " min"))
+"""Kinds of quantities: how each is read and written, and the units that a bare number may have meant."""
 
 
 def length(at_least: str, at_most: str, example: str) -> QuantityRange:
@@ -113,6 +114,7 @@ NUMBER_IN_DRAWING: Final = whole(0, 99_999)
 """Of a segment or a junction, as `drawing.svg` shows it."""
 
 COORDINATE: Final = length("-2 m", "2 m", "12 mm")
+"""Twice the largest piece, on each side of the origin."""
 
 Point = Annotated[tuple[float, float], PointRange(COORDINATE)]
 Place = Annotated[

@@ -16,6 +16,7 @@ LARGEST_FILE: Final = 200_000
 UNREADABLE: Final = (ArithmeticError, AssertionError, AttributeError, LookupError, RecursionError, TypeError)
 """What the YAML library also raises when a value is not what it seems."""
 _FORBIDDEN: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
+"""Characters that YAML 1.2 doesn't allow in a text (section 5.1)."""
 
 
 def read_blocks(path: Path) -> dict[str, Any]:

@@ -11,7 +11,9 @@ from wrapit.exports.decomposition_svg import decomposition_svg
 from wrapit.exports.svgpage import FONT
 from wrapit.wires.model import Wire
 
+# Look of the page: between the pictures, and of the captions below.
 GAP_MM, TEXT_MM = 6.0, 2.6
+# What is taken out of each picture to set it beside others: its size, and names that may be there once only.
 _SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 _MM = re.compile(r'(width|height)="([\d.]+)mm"')
 _IDS = re.compile(r' (?:id|aria-labelledby)="[^"]*"')

@@ -14,6 +14,7 @@ from wrapit.geometry.pieces import chain_of, piece
 from wrapit.geometry.svgframe import SvgFrame
 from wrapit.wires.model import Wire
 
+# Near black: rims of wire ends and numbers, on any of the wires' colours.
 OUTLINE = "#222222"
 
 

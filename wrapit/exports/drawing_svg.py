@@ -23,6 +23,8 @@ from wrapit.geometry import FloatArray
 from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.svgframe import SvgFrame
 
+# Colours that stay apart on white and on each other; segments' and junctions' numbers differ in slant as
+# well.
 INK, BRIDGE, SEGMENT_NUMBER, JUNCTION, REMOVED = "#1c1c1c", "#7a3fa0", "#0b5a8a", "#b02a1a", "#8a5a00"
 # More numbers can't be read at any size that shows the drawing.
 MOST_LABELS = 8000

@@ -26,7 +26,9 @@ class Look:
         return "#{:02x}{:02x}{:02x}".format(*self.rgb)
 
 
+# The pure colours, which AutoCAD numbers 1 (red), 3 (green), 4 (cyan), 5 (blue) and 7 (black on white).
 BLACK, RED, GREEN, BLUE, CYAN = (0, 0, 0), (255, 0, 0), (0, 255, 0), (0, 0, 255), (0, 255, 255)
+# As the programs and services document their own; `boxes` is what Boxes.py writes.
 PROFILES: Final[dict[ProfileName, dict[Layer, Look]]] = {
     "lightburn": {
         "ENGRAVE": Look("ENGRAVE", 7, BLACK),

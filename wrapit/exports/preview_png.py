@@ -18,6 +18,8 @@ from wrapit.wires.model import Wire
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw
 
+# Look of the picture: nothing hangs on these but how it is seen. 1200 px fill a window; painted three times
+# too large and averaged, edges are smooth.
 LONGEST_SIDE_PX = 1200
 SUPERSAMPLING = 3
 PAPER, PLATE, PLATE_EDGE, HOLE = (250, 249, 246), (224, 224, 222), (188, 188, 186), (120, 120, 118)

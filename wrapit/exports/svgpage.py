@@ -12,6 +12,7 @@ from wrapit.geometry.label_places import DIGIT_WIDTH, PADDING, Label
 from wrapit.geometry.pieces import piece
 from wrapit.geometry.svgframe import SvgFrame, number
 
+# One of these is on every system; their digits are about equally wide, so labels fit in each.
 FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 # From here on labels would cover the drawing at their usual size.
 MANY_LABELS = 200

@@ -20,6 +20,8 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.jig.model import Jig
 from wrapit.wires.model import Wire
 
+# Look of the picture: nothing hangs on these but how it is seen. 12 px/mm shows a wire of 1 mm in a dozen
+# pixels; a slice is thinner than a pixel's row at that scale, so that sides have no steps.
 PX_PER_MM = 12.0
 SUPERSAMPLING = 2
 TURN_RAD, TILT_RAD = math.radians(-24), math.radians(48)  # about the vertical; above the horizon

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from wrapit.instructions.model import Placement, Tie
 from wrapit.wires.model import Wire
 
-# Both tails of the binding wire, to hold and pull tight.
+# Both tails of the binding wire, to hold and pull tight, 4 cm each.
 TAILS_MM = 80.0
 
 

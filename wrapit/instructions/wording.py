@@ -12,6 +12,7 @@ from wrapit.units import SWG_MM, awg_diameter_mm
 
 # Headings that change by less than this along a stretch count as straight.
 STRAIGHT_RAD = math.radians(12)
+# Headings are taken so often: a tenth of the thickness of the usual wire.
 _STEP_MM = 0.1
 
 

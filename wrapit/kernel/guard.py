@@ -7,6 +7,8 @@ from contextlib import contextmanager
 
 from wrapit.errors import KernelError
 
+# What helps where the kernel stumbles: its faults hang on chance meetings of curves, which a small change
+# parts.
 REMEDY = "change the size or the clearance a little"
 
 

@@ -11,7 +11,9 @@ import numpy as np
 from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, IntArray
 
-GRID_MM = 1e-5  # corners nearer than this are one
+# From which distance on are two corners two? Faces on one edge place its corners alike but for rounding. From
+# 1e-6 to 1e-4 the meshes of four jigs have the same 104 144 triangles.
+GRID_MM = 1e-5
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,9 +13,15 @@ from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, unit
 from wrapit.kernel.spines import Spine
 
+# Where do faces end? After so many spans, or where two spans differ so much in length: over one long face
+# programs got volumes wrong by 0.7 %. Since circles stand at every jump of curvature, sixteen wires keep
+# their volumes (to 3e-5) for 1 to 100 spans and any ratio; fewer spans only make more faces (1: 46 % more on
+# nine flat wires).
 FACE_SPANS = 4
 SPAN_RATIO = 2.0
-SMOOTH_MM = 1e-4  # knots inside a face are smoothed away within this, to leave surfaces with tangents
+# Within what are knots inside a face smoothed away, to leave surfaces with tangents? From 1e-6 to 1e-3 the
+# volumes of sixteen wires stay right to 6e-5; it is far below what is printed or drawn.
+SMOOTH_MM = 1e-4
 # Poles of a circle of radius 1 as four rational quadratic arcs.
 _RING = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], dtype=float)
 _WEIGHTS = np.array([1, math.sqrt(0.5)] * 4 + [1])
@@ -111,7 +117,7 @@ def capped(skins: Sequence[Any], breaks: FloatArray) -> Any:
     """The solid inside the skins and two flat ends; the skins in quarters of a few spans.
 
     Programs integrate volumes over a face with few points: over one face, or over faces with long and short
-    spans, the volume of a round wire came out wrong by 0.7 %, over these faces by 1e-5.
+    spans, the volume of a round wire came out wrong by 0.7 %, over these faces by less than 1e-4.
     """
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,

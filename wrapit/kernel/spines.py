@@ -13,10 +13,17 @@ import numpy as np
 from wrapit.geometry import BSpline, FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
 
+# How far may a wire turn between two circles of its skin? Over seven wires the volume errs by 1.1e-5 at
+# 0.175, 5.6e-5 at 0.25 and 1.5e-4 at 0.5; STEP files grow the other way.
 TURN_STEP_RAD = 0.25
+# How far may it rise along? Roundings bring circles nearer than this, so 0.4 to 1.2 make no difference to
+# seven wires; it bounds the step on a long ramp.
 LIFT_STEP_MM = 0.6
-LIFT_ROUNDING = 0.6  # of the diameter
-_LIFT_SAMPLES = 6  # in each rounding
+# Over which part of its diameter is a kink of the heights rounded? Less makes more faces (0.4: 30 % more,
+# 0.8: 17 % fewer), more keeps the wire up for longer.
+LIFT_ROUNDING = 0.6
+# How many samples has each rounding? 4 to 8 make no difference to the volume (5.6e-5 of it).
+_LIFT_SAMPLES = 6
 
 
 @dataclass(frozen=True, eq=False)

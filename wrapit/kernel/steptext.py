@@ -9,7 +9,11 @@ from __future__ import annotations
 import hashlib
 import re
 
+# Same model, same bytes: the time of writing is none of them.
 FIXED_TIME = "2000-01-01T00:00:00"
+# How STEP spells what is renumbered or renamed (ISO 10303-21): entities, references, texts, the counter in
+# the usage of a part, letters that need a code, our own way to carry these through the kernel, and the
+# header's name.
 _ENTITY = re.compile(r"#(\d+)\s*=\s*(.*?);\s*(?=#\d+\s*=|ENDSEC)", re.DOTALL)
 _REFERENCE = re.compile(r"#(\d+)")
 _STRING = re.compile(r"('(?:[^']|'')*')")

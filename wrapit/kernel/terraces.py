@@ -17,8 +17,11 @@ from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
 
+# How finely are outlines sampled to tell what lies inside of what? They don't touch, so that roughly is
+# enough: from 0.001 to 0.1 the jigs of butterfly, leaf and bee come out the same.
 NESTING_TOLERANCE_MM = 0.01
-# A face that is missing or flipped, or terraces that overlap, show here.
+# By how much may the volume differ from that of the outlines? A face that is missing or flipped, or terraces
+# that overlap, show here; the jigs of butterfly, leaf and bee differ by 2e-15.
 VOLUME_TOLERANCE = 1e-6
 
 

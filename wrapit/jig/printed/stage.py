@@ -18,11 +18,10 @@ COLOUR = "#c8ccd4"
 def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
     """The printed jig of these wires, or several where one would hold a wire badly; checked.
 
-    Raises JigError where no jig can be made or one fails its check where it would hold too
+    Raises JigError where no jig can be made or one fails its check, UnheldError where it would hold too
     little, KernelError where the kernel fails.
     """
     planned, findings = plan_jigs(wires, config)
-    refuse_unheld((one for jig in planned for one in jig.held), config)
     refuse_unheld((one for jig in planned for one in jig.held), config)
     jigs = tuple(_built(part, config) for part in planned)
     return JigSet(

@@ -1,0 +1,29 @@
+"""The wires are numbered, in their colours, and the same each time."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.exports.pieces_for_tests import eye
+from tests.exports.svg_for_tests import NS, root_of, texts
+from wrapit.exports.decomposition_svg import decomposition_svg
+
+
+def test_wires_are_numbered_and_doubled_segments_drawn_twice() -> None:
+    solution, wires = eye()
+    assert solution.doubled == (4,)
+    root = root_of(decomposition_svg(solution, wires))
+    groups = {group.get("id"): group for group in root.iter(f"{NS}g")}
+    assert groups["wire-01"].get("stroke") == wires[0].colour
+    assert [text.text for text in texts(root)] == ["1", "2"]
+    # The stem out, round the eye, the stem back: three runs, of which the passes of the stem lie apart.
+    runs = [path.get("d", "") for path in groups["wire-01"].iter(f"{NS}path")]
+    assert len(runs) == 3
+    heights = [float(run.split("L")[1].split(",")[1]) for run in (runs[0], runs[2])]
+    assert abs(heights[0] - heights[1]) == pytest.approx(1.1 * wires[0].diameter_mm, abs=1e-3)
+    assert len(root.findall(f".//{NS}circle[@class='end']")) == 3  # the closed wire has one
+
+
+def test_same_input_gives_the_same_bytes() -> None:
+    first, second = eye(), eye()
+    assert decomposition_svg(*first) == decomposition_svg(*second)

@@ -1,0 +1,137 @@
+"""The stages for programs: paths may be texts, the config may be left out, what is heavy comes when needed.
+
+Each of `trace`, `decompose`, `draw_wires` and `build_jigs` takes what the one before returns first, and
+returns its model with its findings; `build` and `check` return the report, which holds them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from wrapit.config import Config
+    from wrapit.decomposition.model import Solution
+    from wrapit.drawing.model import Drawing
+    from wrapit.errors import Finding
+    from wrapit.jig.model import JigSet
+    from wrapit.pipeline.build import Build
+    from wrapit.pipeline.work import Stage
+    from wrapit.wires.model import Wire
+
+
+def load_config(path: str | PathLike[str], overrides: Sequence[str] = ()) -> Config:
+    """The config in a YAML file; `overrides` are `key=value`, as with `--set`.
+
+    Raises ConfigError naming file, line and key.
+    """
+    from wrapit.config import load_config as load
+
+    return load(Path(path), overrides)
+
+
+def trace(
+    path: str | PathLike[str], config: Config | None = None, size_mm: float | None = None
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    """The drawing in a bitmap, SVG or JSON file.
+
+    `size_mm` is the longest side of the piece, instead of the config's `size`; a bitmap needs one of them.
+    Raises ConfigError where it is missing or no length, DrawingError where the file is no line drawing.
+    """
+    from wrapit.drawing.stage import trace as run
+
+    config = config if config is not None else _usual()
+    return run(Path(path), config.tracing, _checked(size_mm) if size_mm is not None else config.size)
+
+
+def decompose(drawing: Drawing, config: Config | None = None) -> tuple[Solution, tuple[Finding, ...]]:
+    """The best wires for a drawing, as trails over its segments.
+
+    Raises DecompositionError where the wishes in the config can't be met together.
+    """
+    from wrapit.decomposition.stage import decompose as run
+
+    return run(drawing, (config if config is not None else _usual()).decomposition)
+
+
+def draw_wires(
+    solution: Solution, config: Config | None = None
+) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
+    """The wires as exact curves, with turns, lengths and ties; longest first. Raises WireError."""
+    from wrapit.wires.stage import draw_wires as run
+
+    return run(solution, config if config is not None else _usual())
+
+
+def build_jigs(wires: Sequence[Wire], config: Config | None = None) -> tuple[JigSet, tuple[Finding, ...]]:
+    """The printed jigs as solids, checked; they bend further than drawn where the config says so.
+
+    Raises JigError where no jig holds the wires, KernelError where the solid modeller fails.
+    """
+    from wrapit.jig.printed.stage import build_jig
+    from wrapit.wires.springback import overbend_wires
+
+    config = config if config is not None else _usual()
+    laid = tuple(wires)
+    said: tuple[Finding, ...] = ()
+    if config.jig.springback == "compensate":
+        bent, said = overbend_wires(laid, config)
+        laid = tuple(each.wire for each in bent)
+    jigs, findings = build_jig(laid, config.jig)
+    return jigs, (*said, *findings)
+
+
+def build(
+    config: str | PathLike[str],
+    folder: str | PathLike[str] | None = None,
+    overrides: Sequence[str] = (),
+    until: Stage = "exports",
+    force: bool = False,
+    alternatives: int = 0,
+) -> Build:
+    """Builds a piece into a folder (default `build/<name>`), as `wrapit build` does.
+
+    Its solids are made in a process of their own, which starts by importing the calling script: call it
+    below `if __name__ == "__main__":`. Raises the WrapItError of the stage that fails.
+    """
+    from wrapit.pipeline.build import build as run
+
+    target = None if folder is None else Path(folder)
+    return run(Path(config), target, overrides, until, force, alternatives)
+
+
+def check(config: str | PathLike[str], overrides: Sequence[str] = ()) -> Build:
+    """Finds what a build would find and writes nothing, as `wrapit check` does.
+
+    To be called as `build` is, and raises what it raises.
+    """
+    from wrapit.pipeline.build import check as run
+
+    return run(Path(config), overrides)
+
+
+def _usual() -> Config:
+    """What a config says that names nothing but a drawing."""
+    from wrapit.config import Config
+
+    return Config(drawing="drawing.svg")
+
+
+def _checked(size_mm: float) -> float:
+    """A size that the config would take, too."""
+    from pydantic import ValidationError
+
+    from wrapit.config import Config
+    from wrapit.errors import ConfigError
+
+    text = f"{float(size_mm)} mm" if math.isfinite(size_mm) else "0 mm"
+    try:
+        checked = Config.model_validate({"drawing": "drawing.svg", "size": text}).size
+    except ValidationError as error:
+        _, _, remedy = str(error.errors()[0]["ctx"]["error"]).partition("; ")
+        raise ConfigError(f"{size_mm} mm is out of range", "size_mm", remedy) from None
+    assert checked is not None
+    return checked
