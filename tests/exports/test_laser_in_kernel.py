@@ -14,10 +14,9 @@ from tests.exports.test_laser import JIG, PIECES, laser_of
 from wrapit.config import PlateConfig
 from wrapit.exports.plate_files import sheet_name, write_plate_files
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
-from wrapit.geometry.bspline import BSpline
+from wrapit.geometry.bspline import BSpline, chain_of
 from wrapit.geometry.outlines.moves import moved
 from wrapit.geometry.outlines.polygons import loop_area_mm2
-from wrapit.geometry.pieces import chain_of
 
 
 def outer_cuts(path: Path) -> list[Loop]:

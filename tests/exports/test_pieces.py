@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from tests.exports.pieces_for_tests import arc_chain
 from wrapit.geometry import BSpline, from_chain, joined, straight
+from wrapit.geometry.arclength import piece
 from wrapit.geometry.bezier import evaluate
-from wrapit.geometry.pieces import chain_of, piece
+from wrapit.geometry.bspline import chain_of
 
 CORNERED = joined([arc_chain((0, 0), 5, -np.pi / 2, np.pi / 2), straight((5.0, 0.0), (9.0, -3.0))])
 

@@ -9,8 +9,9 @@ import numpy as np
 from wrapit.decomposition.model import Solution
 from wrapit.exports.svgpage import FONT, attributes, bounds_with_labels, leader, page, text
 from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.pieces import chain_of, piece
 from wrapit.geometry.svgframe import SvgFrame
 from wrapit.wires.model import Wire
 

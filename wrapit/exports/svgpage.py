@@ -8,8 +8,8 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.arclength import piece
 from wrapit.geometry.label_places import DIGIT_WIDTH, PADDING, Label
-from wrapit.geometry.pieces import piece
 from wrapit.geometry.svgframe import SvgFrame, number
 
 FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"

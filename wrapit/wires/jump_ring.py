@@ -12,7 +12,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding, WireError
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
 from wrapit.wires.bail import hanging_place
 from wrapit.wires.model import RING_GAP_MM, JumpRing, Wire
 

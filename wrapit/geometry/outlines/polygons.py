@@ -10,9 +10,8 @@ import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain
-from wrapit.geometry.bspline import BSpline
+from wrapit.geometry.bspline import BSpline, chain_of
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region
-from wrapit.geometry.pieces import chain_of
 
 CORNER_RAD = math.radians(20)
 STRAIGHT_MM = 1e-4

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, Region
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.pieces import chain_of, piece
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.model import Contour
