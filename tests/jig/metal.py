@@ -30,7 +30,7 @@ def wires_of(
     lifts = lay_wires(splines, diameter_mm)
     return tuple(
         Wire(
-            name=f"wire-{index:02d}",
+            number=index,
             centreline=spline,
             diameter_mm=diameter_mm,
             length_mm=chain.length,

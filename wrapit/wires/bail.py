@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from wrapit.config import BailConfig, Config
+from wrapit.decomposition.json_file import wire_name
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding, WireError
 from wrapit.geometry import BezierChain, FloatArray, unit
@@ -142,7 +143,7 @@ def _loop_finding(bail: Bail, index: int) -> Finding:
     return Finding(
         "note",
         "bail",
-        f"wire-{index + 1:02d} at {(bail.start_mm + bail.end_mm) / 2:.0f} mm",
+        f"{wire_name(index)} at {(bail.start_mm + bail.end_mm) / 2:.0f} mm",
         f"its end goes on into a loop of {bail.inner_diameter_mm:g} mm inside, round"
         f" ({bail.centre[0]:.1f}, {bail.centre[1]:.1f}) mm",
         "hang the piece from it; wrap the tail round the neck",

@@ -159,4 +159,4 @@ def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> PlannedJi
 
 
 def _name(group: tuple[Wire, ...]) -> str:
-    return "jig-" + "-".join([group[0].name, *(wire.name.removeprefix("wire-") for wire in group[1:])])
+    return "jig-" + "-".join([group[0].name, *(f"{wire.number:02d}" for wire in group[1:])])

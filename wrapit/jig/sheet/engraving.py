@@ -46,7 +46,7 @@ def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, .
     placed: tuple[Label, ...] = ()
     for size_mm, near in NUMBER_PLACES:
         anchors = [wire.ends[:1] if near == "start" else wire.centreline.at(_spread(wire)) for wire in left]
-        wanted = [(number_of(wire), points) for wire, points in zip(left, anchors, strict=True)]
+        wanted = [(str(wire.number), points) for wire, points in zip(left, anchors, strict=True)]
         labels = place_labels(wanted, ink, size_mm, placed)
         fits = [area.contains(box(*_corners(label))) for label in labels]
         for label in itertools.compress(labels, fits):
@@ -78,11 +78,6 @@ def label_on(part: Region, text: str, *, least_mm: float, force: bool = False) -
         return ()
     size_mm = float(np.clip(fitting_mm, least_mm, LARGEST_LABEL_MM))
     return engraved_text(text, (float(centre[0]), float(centre[1])), size_mm)
-
-
-def number_of(wire: Wire) -> str:
-    """`1` of `wire-01`."""
-    return wire.name.rpartition("-")[2].lstrip("0") or wire.name
 
 
 def parts_inside(chain: BezierChain, area: BaseGeometry) -> list[BezierChain]:
