@@ -21,7 +21,7 @@ from wrapit.errors import Finding, JigError
 from wrapit.exports.plate_files import GAP_MM, sheet_name, write_plate_files
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.bspline import chain_of
-from wrapit.geometry.outlines.moves import rounded_rectangle
+from wrapit.geometry.outlines.loops import rounded_rectangle
 from wrapit.jig.sheet.engraving import wire_numbers
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.model import LaserJig, LaserPart, Placed

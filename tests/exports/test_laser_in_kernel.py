@@ -15,7 +15,7 @@ from wrapit.config import PlateConfig
 from wrapit.exports.plate_files import sheet_name, write_plate_files
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
 from wrapit.geometry.bspline import BSpline, chain_of
-from wrapit.geometry.outlines.moves import moved
+from wrapit.geometry.outlines.loops import moved
 from wrapit.geometry.outlines.polygons import loop_area_mm2
 
 

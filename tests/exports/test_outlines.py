@@ -21,7 +21,7 @@ from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.plate_svg import plate_svg
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
-from wrapit.geometry.outlines.moves import (
+from wrapit.geometry.outlines.loops import (
     circle,
     moved,
     oriented,

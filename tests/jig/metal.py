@@ -10,8 +10,7 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, BSpline, FloatArray, from_chain, straight
 from wrapit.geometry.bspline import chain_of
-from wrapit.geometry.outlines.loops import Arc
-from wrapit.geometry.outlines.parallels import as_chain
+from wrapit.geometry.outlines.loops import Arc, as_chain
 from wrapit.jig.model import Jig
 from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.model import Wire

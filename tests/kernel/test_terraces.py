@@ -9,7 +9,7 @@ import pytest
 
 from wrapit.errors import KernelError
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.geometry.outlines.parallels import as_chain
+from wrapit.geometry.outlines.loops import as_chain
 from wrapit.kernel.edges import region_face
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.measures import count_solids, is_valid, size_mm, volume_mm3

@@ -12,6 +12,7 @@ import numpy as np
 
 from wrapit.geometry.arrays import FloatArray, locked
 from wrapit.geometry.bezier import BezierChain
+from wrapit.geometry.polyline import total_length
 
 # A joint pole nearer than this (mm) to the place that one smooth spline gives it is dropped.
 SMOOTH_JOINT_MM = 5e-7
@@ -128,7 +129,7 @@ def _knot_steps(points: FloatArray) -> tuple[list[float], list[bool]]:
 
 
 def _chord(cubic: FloatArray) -> float:
-    return max(float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum()), 1e-6)
+    return max(total_length(cubic), 1e-6)
 
 
 def _blossom(spline: BSpline, index: int, values: tuple[float, float, float]) -> FloatArray:

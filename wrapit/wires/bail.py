@@ -15,6 +15,7 @@ from wrapit.errors import Finding, WireError
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import joined as as_one
+from wrapit.geometry.polyline import steps
 from wrapit.materials import min_inner_bend_radius_mm
 from wrapit.wires.bail_loop import Eye, EyeSize, best_eye
 from wrapit.wires.centreline import Joined
@@ -90,8 +91,8 @@ def _size(bail: BailConfig, config: Config) -> EyeSize:
 
 
 def _weights(cloud: FloatArray) -> FloatArray:
-    steps = np.linalg.norm(np.diff(cloud, axis=0), axis=1) / 2
-    return np.concatenate([steps, [0.0]]) + np.concatenate([[0.0], steps])
+    halves = steps(cloud) / 2
+    return np.concatenate([halves, [0.0]]) + np.concatenate([[0.0], halves])
 
 
 def _ends_near(chains: Sequence[BezierChain], place: FloatArray, reach_mm: float) -> list[tuple[int, bool]]:

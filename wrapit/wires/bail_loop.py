@@ -11,8 +11,7 @@ import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.bezier import joined
-from wrapit.geometry.outlines.loops import Arc
-from wrapit.geometry.outlines.parallels import as_chain
+from wrapit.geometry.outlines.loops import Arc, as_chain
 
 GAP_MM = 0.05  # between the loop's end and the neck, so that the wire needn't climb over itself
 NECKS_DIAMETERS = (0.0, 1.0, 2.0, 3.0)

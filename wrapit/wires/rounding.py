@@ -8,13 +8,15 @@ from typing import Final
 
 import numpy as np
 
-from wrapit.geometry import BezierChain, FloatArray, straight
+from wrapit.geometry import Arc, BezierChain, FloatArray, straight
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import derivative, second_derivative
+from wrapit.geometry.outlines.loops import as_chain, point_of
 
 MIN_BLEND_MM = 0.3  # shorter blends make slivers in the jig
 GROWTH = 1.2
 ROUGHNESS_MM = 0.03
+ARC_PIECE_RAD = math.pi / 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,33 +85,16 @@ def _swing(head: BezierChain, tail: BezierChain) -> tuple[BezierChain, ...]:
 def _cubic_arc(
     start: FloatArray, along: FloatArray, end: FloatArray, out: FloatArray, reach: float
 ) -> BezierChain:
-    """A circular arc as cubics of at most 60° (2·10⁻⁵ of the radius away from the circle)."""
+    """The circular arc that leaves `start` along one direction and comes to `end` along the other."""
     cross = along[0] * out[1] - along[1] * out[0]
     angle = math.atan2(float(cross), float(along @ out))
+    side = math.copysign(1, angle)
     radius = reach / math.tan(abs(angle) / 2)
-    count = max(1, math.ceil(abs(angle) / (math.pi / 3)))
-    centre = start + radius * math.copysign(1, angle) * np.array([-along[1], along[0]])
-    handle = 4 / 3 * math.tan(abs(angle) / count / 4) * radius
-    turns = [
-        np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
-        for a in np.linspace(0, angle, count + 1)
-    ]
-    points = [centre + turn @ (start - centre) for turn in turns]
-    points[-1] = end
-    tangents = [turn @ along for turn in turns]
-    return BezierChain(
-        np.array(
-            [
-                [
-                    points[i],
-                    points[i] + handle * tangents[i],
-                    points[i + 1] - handle * tangents[i + 1],
-                    points[i + 1],
-                ]
-                for i in range(count)
-            ]
-        )
-    )
+    centre = start + radius * side * np.array([-along[1], along[0]])
+    first = math.atan2(along[1], along[0]) - side * math.pi / 2
+    points = as_chain(Arc(point_of(centre), radius, first, angle), ARC_PIECE_RAD).points.copy()
+    points[0, 0], points[-1, 3] = start, end
+    return BezierChain(points)
 
 
 def _smallest_radius(curves: tuple[BezierChain, ...]) -> float:

@@ -12,6 +12,7 @@ from wrapit.geometry import BezierChain, FloatArray, Region
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
+from wrapit.geometry.polyline import at_lengths, lengths
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.model import Contour
@@ -134,6 +135,5 @@ def _points_outside(area: BaseGeometry) -> FloatArray:
 def _points(chain: BezierChain, stations: FloatArray) -> FloatArray:
     """Points (m, 2) at arc lengths (m,), near enough to tell inside from outside."""
     dense = chain.sampled(0.02)
-    reach = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(dense, axis=0), axis=1))])
-    scaled = stations * reach[-1] / stations[-1]
-    return np.column_stack([np.interp(scaled, reach, dense[:, axis]) for axis in (0, 1)])
+    reach = lengths(dense)
+    return at_lengths(dense, reach, stations * reach[-1] / stations[-1])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from wrapit.geometry import Edge, Region
-from wrapit.geometry.outlines.moves import moved
+from wrapit.geometry.outlines.loops import moved
 from wrapit.jig.model import Pin
 from wrapit.wires.model import Wire
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.moves import circle, oriented, reversed_loop, rounded_rectangle
+from wrapit.geometry.outlines.loops import circle, oriented, reversed_loop, rounded_rectangle
 from wrapit.jig.model import Hole
 from wrapit.jig.sheet.engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.sheet.frame import Frame, frame_around
