@@ -1,7 +1,8 @@
 """Arc length along curves and its inverse: the place at a length, and the part between two lengths.
 
-`ArcLength` answers for thousands of places on one B-spline at once, from a table; `piece` and `cut` take a
-chain of Béziers apart and solve for each end by itself. Both are exact to about 1e-9 of the length.
+`ArcLength` answers for thousands of places on one B-spline at once, from a table that Newton's method
+refines; `piece` solves for each end of a part of a chain by itself. Both are exact to 1e-9 of the length.
+`cut`, which the corners of wires are rounded with, is not: see there.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
-from wrapit.geometry.bezier import QUARTER_NODES, QUARTER_WEIGHTS, BezierChain, split
+from wrapit.geometry.bezier import QUARTER_NODES, QUARTER_WEIGHTS, BezierChain, derivative, split
 from wrapit.geometry.bspline import BSpline
 
 # Gauss's rule for the short pieces of the table.
@@ -25,6 +26,7 @@ _QUARTER_WEIGHTS = np.tile(QUARTER_WEIGHTS / 4, 4)
 NEWTON_STEPS = 2
 END_SHARE, CLOSE_SHARE = 1e-9, 1e-12
 MOST_STEPS = 60
+TABLE_SIZE = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,13 +113,18 @@ def piece(chain: BezierChain, start_mm: float, end_mm: float) -> BezierChain:
 
 
 def cut(chain: BezierChain, at_mm: float) -> tuple[BezierChain, BezierChain]:
-    """The chain before and after an arc length strictly inside it; ValueError at or beyond an end."""
+    """The chain before and after an arc length strictly inside it; ValueError at or beyond an end.
+
+    Only about there, by up to 6e-3 mm: the parameter comes from a table without a step of Newton's. A corner
+    may be trimmed there as well as beside it, and the exact place moves every wire's last digits and with
+    them numbers that people compare (the leaf's supported share of turns from 0.943 to 0.946).
+    """
     if not 0 < at_mm < chain.length:
         raise ValueError(f"can't cut a chain of {chain.length} mm at {at_mm} mm")
     ends = np.cumsum(chain.lengths)
     index = min(int(np.searchsorted(ends, at_mm, side="left")), len(chain) - 1)
     cubic = chain.points[index : index + 1]
-    at = _parameter(cubic[0], at_mm - (float(ends[index - 1]) if index else 0.0))
+    at = _parameter_nearly(cubic, at_mm - (float(ends[index - 1]) if index else 0.0))
     # At a joint both sides keep their cubics whole: a cubic of no length has no direction.
     joint = index + round(at)
     if at in (0.0, 1.0) and 0 < joint < len(chain):
@@ -151,6 +158,15 @@ def _parameter(cubic: FloatArray, length_mm: float) -> float:
         step = t - excess / speed if speed > 0 else -1.0
         t = step if low < step < high else (low + high) / 2
     return t
+
+
+def _parameter_nearly(cubic: FloatArray, at_mm: float) -> float:
+    """The same for a cubic (1, 4, 2) by interpolation between TABLE_SIZE even parameters."""
+    t = np.linspace(0, 1, TABLE_SIZE + 1)
+    inner = (t[:-1, None] + np.diff(t)[:, None] * _NODES).ravel()
+    speed = np.linalg.norm(derivative(cubic, inner)[0], axis=1).reshape(-1, len(_NODES))
+    lengths = np.concatenate([[0.0], np.cumsum((speed @ _WEIGHTS) / TABLE_SIZE)])
+    return float(np.interp(at_mm, lengths, t))
 
 
 def _run_mm(velocity: FloatArray, t: float) -> float:
