@@ -59,10 +59,11 @@ def _course(wire: Wire) -> tuple[FloatArray, FloatArray]:
     """Points (m, 3) along the wire, and unit directions (m, 2) across it."""
     lengths = ArcLength(wire.centreline)
     at_mm = lengths.stations(STEP_MM)
-    z_mm = np.interp(at_mm, *np.array(wire.lifts).T) if wire.lifts else np.zeros(len(at_mm))
     u = lengths.parameter(at_mm)
     tangent = unit(wire.centreline.derivative(u))
-    return np.column_stack([wire.centreline.at(u), z_mm]), np.column_stack([-tangent[:, 1], tangent[:, 0]])
+    return np.column_stack([wire.centreline.at(u), wire.heights_mm(at_mm)]), np.column_stack(
+        [-tangent[:, 1], tangent[:, 0]]
+    )
 
 
 def _ring(point: FloatArray, outward: FloatArray, inside_mm: float, gauge_mm: float) -> JumpRing:

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Traversal
 from wrapit.geometry import BSpline, FloatArray
@@ -109,6 +111,10 @@ class Wire:
     """Height of the centreline over the lowest layer, (at_mm, z_mm) smooth between; empty is flat."""
 
     bail: Bail | None = None
+
+    def heights_mm(self, at_mm: FloatArray) -> FloatArray:
+        """Heights (m,) of the centreline over the lowest layer at places (m,) along the wire."""
+        return np.interp(at_mm, *np.array(self.lifts).T) if self.lifts else np.zeros(len(at_mm))
 
     @property
     def name(self) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -12,13 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Polygon, distance
 from shapely import points as as_points
-from svgelements import Path as SvgPath
 
-from tests.exports.pieces_for_tests import arc_chain, hairpin
-from tests.exports.test_laser import laser_of
-from wrapit.config import PlateConfig
-from wrapit.exports.contour_edges import as_bulges, as_chain
-from wrapit.exports.plate_svg import plate_svg
+from tests.exports.pieces_for_tests import arc_chain
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
 from wrapit.geometry.outlines.loops import (
@@ -30,8 +24,6 @@ from wrapit.geometry.outlines.loops import (
     turns_left,
 )
 from wrapit.geometry.outlines.offsets import offset_region
-from wrapit.jig.sheet.checks import length_mm
-from wrapit.jig.sheet.inlays import moved_outline
 
 sizes = st.floats(1, 50)
 
@@ -100,28 +92,6 @@ def test_orientation_is_set_and_turned_round() -> None:
     assert area(region.outer) == pytest.approx(area(loop), rel=1e-6)
 
 
-def test_mixed_edges_become_one_chain_without_gaps() -> None:
-    edges = (
-        Line((0, 0), (4, 0)),
-        Arc((4, 1), 1.0, -math.pi / 2, math.pi),
-        Line((4 + 1e-9, 2), (0, 2)),
-        Arc((0, 1), 1.0, math.pi / 2, math.pi),
-    )
-    chain = as_chain(edges, closed=True)
-    assert np.array_equal(chain.start, chain.end)
-    assert chain.length == pytest.approx(8 + 2 * math.pi, abs=1e-6)
-    with pytest.raises(ValueError, match="apart"):
-        as_chain((Line((0, 0), (1, 0)), Line((1.1, 0), (0, 0))), closed=True)
-
-
-def test_bulges_are_the_arcs() -> None:
-    vertices = as_bulges((Arc((0, 0), 2.0, 0.0, math.pi), Line((-2, 0), (2, 0))), closed=True)
-    assert vertices[0] == pytest.approx((2, 0, 1.0))
-    assert vertices[1] == pytest.approx((-2, 0, 0.0), abs=1e-12)
-    with pytest.raises(ValueError, match="Bézier"):
-        as_bulges((arc_chain((0, 0), 1, 0, 1),), closed=False)
-
-
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 2**32), st.sampled_from([0.2, 0.02, 0.002]))
 def test_arcs_and_lines_keep_to_the_tolerance(seed: int, tolerance: float) -> None:
@@ -134,39 +104,3 @@ def test_arcs_and_lines_keep_to_the_tolerance(seed: int, tolerance: float) -> No
             assert math.dist(before.end, after.start) < 1e-6
         points = np.vstack([edge.sampled(tolerance / 50) for edge in edges])
         assert distance(as_points(true), LineString(points)).max() <= 1.1 * tolerance + 1e-6
-
-
-def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
-    laser, _ = laser_of(hairpin(), PlateConfig())
-    sheet = laser.sheets[0]
-    root = ET.fromstring(plate_svg(sheet.contours, sheet.width_mm, sheet.height_mm, "lightburn"))
-    assert root.get("width") == f"{sheet.width_mm:g}mm"
-    assert root.get("viewBox") == f"0 0 {sheet.width_mm:g} {sheet.height_mm:g}"
-    groups = {group.get("id"): group for group in root if group.tag.endswith("}g")}
-    assert list(groups) == ["ENGRAVE", "CUT_INNER", "CUT_OUTER"]
-    assert groups["CUT_OUTER"].get("stroke") == "#ff0000"
-    for layer, group in groups.items():
-        assert group.get("fill") == "none"
-        drawn = sorted(SvgPath(path.get("d")).length(error=1e-6) for path in group)
-        planned = sorted(length_mm(contour) for contour in sheet.contours if contour.layer == layer)
-        assert drawn == pytest.approx(planned, abs=5e-3)
-
-
-def test_where_no_exact_outline_is_found_lines_take_its_place() -> None:
-    loop = rounded_rectangle(0, 0, 10, 4, 1)
-
-    def fails(_: Region, __: float) -> tuple[Region, ...]:
-        raise ValueError("no meeting")
-
-    def wrong(region: Region, distance_mm: float) -> tuple[Region, ...]:
-        return offset_region(region, 2 * distance_mm)
-
-    true = moved_outline(loop, 0.1, offset_region)
-    assert true is not None
-    assert true.exact
-    for offset in (fails, wrong):
-        plain = moved_outline(loop, 0.1, offset)
-        assert plain is not None
-        assert not plain.exact
-        assert area(plain.loop) == pytest.approx(area(true.loop), abs=0.02)
-    assert moved_outline(loop, -2.1, fails) is None
