@@ -8,10 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from wrapit.geometry import Arc, BezierChain, FloatArray, straight
+from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import derivative, second_derivative
-from wrapit.geometry.outlines.loops import as_chain, point_of
+from wrapit.geometry.outlines.loops import arc_cubics
 
 MIN_BLEND_MM = 0.3  # shorter blends make slivers in the jig
 GROWTH = 1.2
@@ -88,13 +88,17 @@ def _cubic_arc(
     """The circular arc that leaves `start` along one direction and comes to `end` along the other."""
     cross = along[0] * out[1] - along[1] * out[0]
     angle = math.atan2(float(cross), float(along @ out))
-    side = math.copysign(1, angle)
     radius = reach / math.tan(abs(angle) / 2)
-    centre = start + radius * side * np.array([-along[1], along[0]])
-    first = math.atan2(along[1], along[0]) - side * math.pi / 2
-    points = as_chain(Arc(point_of(centre), radius, first, angle), ARC_PIECE_RAD).points.copy()
-    points[0, 0], points[-1, 3] = start, end
-    return BezierChain(points)
+    count = max(1, math.ceil(abs(angle) / ARC_PIECE_RAD))
+    centre = start + radius * math.copysign(1, angle) * np.array([-along[1], along[0]])
+    turns = [
+        np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
+        for a in np.linspace(0, angle, count + 1)
+    ]
+    points = np.array([centre + turn @ (start - centre) for turn in turns])
+    points[-1] = end
+    tangents = np.array([turn @ along for turn in turns])
+    return BezierChain(arc_cubics(points, tangents, radius, abs(angle) / count))
 
 
 def _smallest_radius(curves: tuple[BezierChain, ...]) -> float:

@@ -116,12 +116,21 @@ def as_chain(edge: Edge, piece_rad: float = ARC_PIECE_RAD) -> BezierChain:
         return straight(edge.start, edge.end)
     count = max(1, math.ceil(abs(edge.sweep_rad) / piece_rad - 1e-9))
     angles = edge.start_rad + edge.sweep_rad * np.linspace(0, 1, count + 1)
-    handle = 4 / 3 * math.tan(edge.sweep_rad / count / 4)
     radial = np.column_stack([np.cos(angles), np.sin(angles)])
-    along = np.column_stack([-np.sin(angles), np.cos(angles)]) * handle
-    a, b = radial[:-1], radial[1:]
-    unit_points = np.stack([a, a + along[:-1], b - along[1:], b], axis=1)
-    return BezierChain(np.array(edge.centre) + edge.radius_mm * unit_points)
+    left = np.column_stack([-np.sin(angles), np.cos(angles)])
+    unit_cubics = arc_cubics(radial, left, 1.0, edge.sweep_rad / count)
+    return BezierChain(np.array(edge.centre) + edge.radius_mm * unit_cubics)
+
+
+def arc_cubics(points: FloatArray, tangents: FloatArray, radius_mm: float, step_rad: float) -> FloatArray:
+    """Cubics (n, 4, 2) between points (n + 1, 2) on a circle, each `step_rad` from the one before.
+
+    Their handles are 4/3 · tan(step / 4) of the radius long, so that their middles lie on the circle;
+    `tangents` (n + 1, 2) are unit vectors, to the left of the radius where `step_rad` keeps its sign.
+    """
+    handles = tangents * (4 / 3 * math.tan(step_rad / 4) * radius_mm)
+    a, b = points[:-1], points[1:]
+    return np.stack([a, a + handles[:-1], b - handles[1:], b], axis=1)
 
 
 def moved(edge: Edge, quarters: int, shift: Point) -> Edge:
