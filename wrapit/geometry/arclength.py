@@ -127,9 +127,9 @@ def cut(chain: BezierChain, at_mm: float) -> tuple[BezierChain, BezierChain]:
     at = _parameter_nearly(cubic, at_mm - (float(ends[index - 1]) if index else 0.0))
     # At a joint both sides keep their cubics whole: a cubic of no length has no direction.
     joint = index + round(at)
-    if at in (0.0, 1.0) and 0 < joint < len(chain):
+    if min(at, 1 - at) <= END_SHARE and 0 < joint < len(chain):
         return BezierChain(chain.points[:joint]), BezierChain(chain.points[joint:])
-    left, right = split(cubic, float(np.clip(at, 1e-9, 1 - 1e-9)))
+    left, right = split(cubic, float(np.clip(at, END_SHARE, 1 - END_SHARE)))
     return (
         BezierChain(np.concatenate([chain.points[:index], left])),
         BezierChain(np.concatenate([right, chain.points[index + 1 :]])),
