@@ -1,74 +1,34 @@
-"""Moving, turning, offsetting and simplifying outlines keeps what it promises."""
+"""Edges moved, turned round and made keep what they promise."""
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import LineString, Polygon, distance
-from shapely import points as as_points
+from shapely import Polygon, box
 
 from tests.exports.pieces_for_tests import arc_chain
-from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
+from wrapit.geometry import Arc, Line, Loop, Region
 from wrapit.geometry.outlines.loops import (
+    as_chain,
     circle,
+    is_circle,
     moved,
     oriented,
+    reversed_edge,
     reversed_loop,
     rounded_rectangle,
     turns_left,
 )
-from wrapit.geometry.outlines.offsets import offset_region
 
 sizes = st.floats(1, 50)
 
 
 def area(loop: Loop) -> float:
     return Polygon(loop.sampled(1e-5)).area
-
-
-@settings(max_examples=30, deadline=None)
-@given(sizes, sizes, st.just(0.0) | st.floats(0.05, 8), st.floats(0.01, 0.3))
-def test_rounded_rectangles_grow_exactly(width: float, height: float, radius: float, by: float) -> None:
-    radius = min(radius, width / 2, height / 2)
-    loop = rounded_rectangle(0, 0, width, height, radius)
-    assert area(loop) == pytest.approx(width * height - (4 - math.pi) * radius**2, abs=1e-2)
-    (grown,) = offset_region(Region(loop), by)
-    perimeter = 2 * (width + height) - (8 - 2 * math.pi) * radius
-    assert area(grown.outer) == pytest.approx(area(loop) + perimeter * by + math.pi * by**2, abs=1e-2)
-
-
-def test_shrinking_to_nothing_leaves_nothing() -> None:
-    assert offset_region(Region(rounded_rectangle(0, 0, 4, 1, 0)), -0.6) == ()
-    assert offset_region(Region(circle((0, 0), 1.0)), -1.5) == ()
-    (ring,) = offset_region(Region(circle((0, 0), 1.0)), -0.25)
-    assert ring.outer.edges[0].radius_mm == pytest.approx(0.75)
-
-
-def test_a_neck_parts_into_two() -> None:
-    corners = [
-        (0, 0),
-        (4, 0),
-        (4, 1.4),
-        (6, 1.4),
-        (6, 0),
-        (10, 0),
-        (10, 3),
-        (6, 3),
-        (6, 1.6),
-        (4, 1.6),
-        (4, 3),
-        (0, 3),
-    ]
-    loop = Loop(tuple(Line(a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)))
-    left, right = offset_region(Region(loop), -0.15)
-    assert area(left.outer) == pytest.approx(3.7 * 2.7, abs=0.02)
-    assert area(right.outer) == pytest.approx(3.7 * 2.7, abs=0.02)
 
 
 @settings(max_examples=30, deadline=None)
@@ -92,15 +52,50 @@ def test_orientation_is_set_and_turned_round() -> None:
     assert area(region.outer) == pytest.approx(area(loop), rel=1e-6)
 
 
-@settings(max_examples=25, deadline=None)
-@given(st.integers(0, 2**32), st.sampled_from([0.2, 0.02, 0.002]))
-def test_arcs_and_lines_keep_to_the_tolerance(seed: int, tolerance: float) -> None:
-    chain = BezierChain(np.random.default_rng(seed).uniform(0, 10, (1, 4, 2)))
-    true = chain.sampled(0.002)
-    for edges in (as_arcs((chain,), tolerance), as_lines((chain,), tolerance)):
-        assert np.allclose(edges[0].start, chain.start, atol=1e-9)
-        assert np.allclose(edges[-1].end, chain.end, atol=1e-9)
-        for before, after in itertools.pairwise(edges):
-            assert math.dist(before.end, after.start) < 1e-6
-        points = np.vstack([edge.sampled(tolerance / 50) for edge in edges])
-        assert distance(as_points(true), LineString(points)).max() <= 1.1 * tolerance + 1e-6
+@given(st.floats(0.1, 50), st.floats(-6, 6), st.floats(0.05, math.tau), st.sampled_from([7.5, 22.5, 60.0]))
+def test_arcs_become_cubics_as_near_as_they_say(
+    radius: float, start: float, sweep: float, most: float
+) -> None:
+    piece = math.radians(most)
+    stray = 2 / 27 * math.sin(piece / 4) ** 6 / math.cos(piece / 4) ** 2
+    assert stray < {7.5: 1e-10, 22.5: 7e-8, 60.0: 2.5e-5}[most]
+    for arc in (Arc((1.0, -2.0), radius, start, sweep), Arc((1.0, -2.0), radius, start, -sweep)):
+        chain = as_chain(arc, piece)
+        away = np.hypot(*(chain.sampled(radius / 100) - np.array(arc.centre)).T) / radius - 1
+        assert away.min() > -1e-14
+        assert away.max() < 1.01 * stray + 1e-14
+        assert np.allclose(chain.start, arc.start, atol=1e-12)
+        assert np.allclose(chain.end, arc.end, atol=1e-12)
+        assert chain.length == pytest.approx(radius * sweep, rel=1e-4)
+
+
+@given(sizes, sizes, st.just(0.0) | st.floats(0.01, 30))
+def test_rounded_rectangles_are_shapelys(width: float, height: float, radius: float) -> None:
+    loop = rounded_rectangle(-1, 2, width - 1, height + 2, radius)
+    fits = min(radius, width / 2, height / 2)
+    fits = min(fits, 0.9999 * min(width, height) / 2)  # or nothing is left to grow
+    inner = box(fits - 1, fits + 2, width - 1 - fits, height + 2 - fits)
+    assert turns_left(loop)
+    assert Polygon(loop.sampled(1e-4)).symmetric_difference(inner.buffer(fits, quad_segs=1000)).area < 0.03
+    for before, after in zip(loop.edges, loop.edges[1:] + loop.edges[:1], strict=True):
+        assert math.dist(before.end, after.start) < 1e-9
+
+
+def test_a_full_circle_is_one_edge() -> None:
+    assert is_circle(circle((1, 2), 3.0).edges)
+    assert is_circle(reversed_loop(circle((1, 2), 3.0)).edges)
+    assert not is_circle((Arc((1, 2), 3.0, 0.0, 6.0),))
+    assert not is_circle((Line((0, 0), (1, 0)),))
+    assert not is_circle((Arc((0, 0), 1.0, 0.0, math.pi), Arc((0, 0), 1.0, math.pi, math.pi)))
+
+
+@given(st.floats(0.1, 20), st.floats(-6, 6), st.floats(-math.tau, math.tau).filter(lambda a: abs(a) > 0.01))
+def test_travelled_back_twice_is_the_edge(radius: float, start: float, sweep: float) -> None:
+    for edge in (
+        Arc((1, 2), radius, start, sweep),
+        Line((1, 2), (3, radius)),
+        arc_chain((0, 0), radius, 0, 2),
+    ):
+        back = reversed_edge(edge)
+        assert np.allclose(back.sampled(0.1), edge.sampled(0.1)[::-1], atol=1e-9)
+        assert np.allclose(reversed_edge(back).sampled(0.1), edge.sampled(0.1), atol=1e-9)

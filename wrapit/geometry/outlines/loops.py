@@ -107,8 +107,8 @@ def point_of(xy: Sequence[float] | FloatArray) -> Point:
 def as_chain(edge: Edge, piece_rad: float = ARC_PIECE_RAD) -> BezierChain:
     """The edge as cubics; an arc as equal pieces of at most `piece_rad`.
 
-    A cubic strays from an arc of θ by 4/27 · sin⁶(θ/4) / cos²(θ/4) of its radius (Goldapp 1991): 1e-10 for
-    7.5°, 5e-8 for 22.5°, 2e-5 for 60°.
+    A cubic strays outward from an arc of θ by 2/27 · sin⁶(θ/4) / cos²(θ/4) of its radius: 1e-10 for 7.5°,
+    7e-8 for 22.5°, 2e-5 for 60°.
     """
     if isinstance(edge, BezierChain):
         return edge
