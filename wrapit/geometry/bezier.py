@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from wrapit.geometry.arrays import FloatArray, locked, unit
 
-# Gauss's rule for the length of each quarter of a Bézier.
+# Gauss's rule for the length of each quarter of a Bézier: of 300 random ones in a square of 20 mm, half are
+# exact to 4e-15 mm; 1 in 100 errs by 5e-4 mm or more, the worst by 1.5e-3: those that all but have a cusp.
 QUARTER_NODES, QUARTER_WEIGHTS = np.polynomial.legendre.leggauss(24)
 QUARTER_NODES, QUARTER_WEIGHTS = (QUARTER_NODES + 1) / 2, QUARTER_WEIGHTS / 2
 

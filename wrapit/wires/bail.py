@@ -21,10 +21,11 @@ from wrapit.wires.bail_loop import Eye, EyeSize, best_eye
 from wrapit.wires.centreline import Joined
 from wrapit.wires.model import Bail
 
+# How closely wires are looked at for the centre of gravity and for touching.
 STEP_MM = 0.05
 PLUMB_MM = 0.1  # the top is the highest place so near to the line through the centre of gravity
 STEM_DIAMETERS = 4.0  # so much of a wire before its end belongs to the neck
-EXTRA_MM = 0.02
+EXTRA_MM = 0.02  # more than the narrowest wall needs, or rounding would leave it out
 
 
 def with_bail(

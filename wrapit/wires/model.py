@@ -12,6 +12,7 @@ from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Traversal
 from wrapit.geometry import BSpline, FloatArray
 
+# Between a jump ring and the wire it hangs on: it swings, and the kernel sees two solids that don't touch.
 RING_GAP_MM = 0.05
 Side = Literal["left", "right", "both"]
 

@@ -12,8 +12,11 @@ from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain, evaluate, split
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, point_of, reversed_edge
 
+# Where cubics are compared with arcs, and arcs with cubics.
 _CHECKS = np.linspace(0, 1, 18)[1:-1]
 _INNER = np.linspace(0, 1, 9)[1:-1]
+# A rounder arc is a line: over 100 mm it strays from one by 0.0125 mm. 7e4 or 1.3e5 change no outline of two
+# of our drawings.
 _LARGEST_RADIUS_MM = 1e5
 
 

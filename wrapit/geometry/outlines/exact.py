@@ -25,8 +25,11 @@ from wrapit.geometry.outlines.parallels import Parallel, Round, Side
 from wrapit.geometry.outlines.polygons import fitted_edges
 from wrapit.geometry.polyline import signed_area
 
+# How close together a polygon's points are, when its sides are recognised: a third more or less moves the
+# area of 16 walls (2250 mm²) by 0.02 mm².
 STEP_MM = 0.1
 SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
+# How near free sides are to the polygon; nothing rests on them. At 0.0035 they have 7 % more cubics.
 FREE_TOLERANCE_MM = 0.005
 
 

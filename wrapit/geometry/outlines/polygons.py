@@ -14,6 +14,8 @@ from wrapit.geometry.bspline import BSpline, chain_of
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region, point_of
 from wrapit.geometry.polyline import lengths, steps, total_length
 
+# What stays a corner, what is straight, and how close points stand on straight stretches before a curve is
+# fitted: each a third more or less leaves all free sides of two of our drawings as they are.
 CORNER_RAD = math.radians(20)
 STRAIGHT_MM = 1e-4
 FIT_STEP_MM = 0.25
