@@ -111,7 +111,7 @@ def _wire(drawing: Drawing, index: int, trail: Trail, walks: tuple[Trail, ...]) 
     length = float(reach[-1])
     name, spline = f"wire-{index + 1:02d}", from_chain(chain)
     return Wire(
-        name=name,
+        number=index + 1,
         centreline=spline,
         diameter_mm=1.02,
         length_mm=length,

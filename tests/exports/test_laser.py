@@ -19,8 +19,8 @@ from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.exports.flat_files import write_flat_files
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.moves import rounded_rectangle
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import rounded_rectangle
 from wrapit.jig.sheet.drawings import GAP_MM, sheet_drawings, sheet_name
 from wrapit.jig.sheet.engraving import wire_numbers
 from wrapit.jig.sheet.inlays import polygon_of

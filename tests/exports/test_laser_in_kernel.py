@@ -14,10 +14,9 @@ from tests.exports.test_laser import JIG, PIECES, laser_of
 from wrapit.config import PlateConfig
 from wrapit.exports.flat_files import write_flat_files
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
-from wrapit.geometry.bspline import BSpline
-from wrapit.geometry.outlines.moves import moved
+from wrapit.geometry.bspline import BSpline, chain_of
+from wrapit.geometry.outlines.loops import moved
 from wrapit.geometry.outlines.polygons import loop_area_mm2
-from wrapit.geometry.pieces import chain_of
 from wrapit.jig.sheet.drawings import sheet_drawings, sheet_name
 
 

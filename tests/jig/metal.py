@@ -9,9 +9,8 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, BSpline, FloatArray, from_chain, straight
-from wrapit.geometry.outlines.loops import Arc
-from wrapit.geometry.outlines.parallels import as_chain
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import Arc, as_chain
 from wrapit.jig.model import Jig
 from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.model import Wire
@@ -30,7 +29,7 @@ def wires_of(
     lifts = lay_wires(splines, diameter_mm)
     return tuple(
         Wire(
-            name=f"wire-{index:02d}",
+            number=index,
             centreline=spline,
             diameter_mm=diameter_mm,
             length_mm=chain.length,

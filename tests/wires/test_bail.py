@@ -13,7 +13,8 @@ from wrapit.config import Config, GuideConfig
 from wrapit.decomposition.model import Solution
 from wrapit.errors import Finding, WireError
 from wrapit.geometry import straight
-from wrapit.geometry.pieces import chain_of, piece
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
 from wrapit.jig.printed.stage import build_jig

@@ -15,6 +15,7 @@ from wrapit.decomposition.model import Solution
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength, cut
 from wrapit.wires.centreline import join
+from wrapit.wires.mirror import mirrored
 from wrapit.wires.stacking import lay_wires
 from wrapit.wires.stage import draw_wires
 from wrapit.wires.turns import find_turns
@@ -187,3 +188,24 @@ def test_laid_wires_keep_a_diameter_apart_in_space(angle: float, offset: float) 
         points.append(np.column_stack([spline.at(lengths.parameter(at_mm)), z]))
     apart = np.linalg.norm(points[0][:, None] - points[1][None], axis=2)
     assert apart.min() > 0.97 * d
+
+
+@pytest.mark.parametrize("count", [1, 9, 101])
+def test_wires_are_numbered_in_order_and_named_by_their_numbers(count: int) -> None:
+    points = [(10.0 * i, y) for i in range(count) for y in (0.0, 8.0)]
+    drawing = drawing_of(points, [(2 * i, 2 * i + 1, None) for i in range(count)])
+    wires, _ = draw_wires(solution_of(drawing, [[(i, False)] for i in range(count)]), Config(drawing="x.svg"))
+    assert [wire.number for wire in wires] == list(range(1, count + 1))
+    assert wires[-1].name == f"wire-{count:02d}"
+    assert [wire.number for wire in mirrored(wires)] == [wire.number for wire in wires]
+
+
+def test_a_wires_height_is_read_off_its_lifts() -> None:
+    drawing = drawing_of([(0, 0), (20, 0), (10, -9), (10, 9)], [(0, 1, None), (2, 3, None)])
+    (low, high), _ = draw_wires(
+        solution_of(drawing, [[(0, False)], [(1, False)]]), Config(drawing="x.svg", wire={"gauge": "1 mm"})
+    )
+    assert low.heights_mm(np.array([0.0, 10.0])).tolist() == [0.0, 0.0]
+    at, z = np.array(high.lifts).T
+    assert np.allclose(high.heights_mm(at), z)
+    assert high.heights_mm(np.array([9.0]))[0] == pytest.approx(1.0, abs=0.02)

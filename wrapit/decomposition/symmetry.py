@@ -13,6 +13,7 @@ from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, half_edges
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
+from wrapit.geometry.polyline import evenly
 
 Direction = Literal["auto", "vertical", "horizontal"]
 
@@ -101,6 +102,4 @@ def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ..
 
 def _evenly(points: FloatArray) -> FloatArray:
     """Points (9, 2) at even distances along a polyline."""
-    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    at = np.linspace(0.0, lengths[-1], _PARTS)
-    return np.stack([np.interp(at, lengths, points[:, axis]) for axis in (0, 1)], axis=1)
+    return evenly(points, _PARTS)

@@ -8,7 +8,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wrapit.geometry import Arc, BezierChain, Edge, FloatArray, Line, straight
+from wrapit.geometry import Arc, BezierChain, Edge, FloatArray, Line
+from wrapit.geometry.outlines.loops import as_chain as cubics_of
+from wrapit.geometry.outlines.loops import point_of
 
 # Ends that lie apart by more than this (mm) are a mistake of the caller, not rounding.
 LARGEST_GAP_MM = 1e-3
@@ -18,7 +20,7 @@ ARC_STEP_RAD = math.radians(22.5)
 
 def as_chain(edges: Sequence[Edge], *, closed: bool) -> BezierChain:
     """The edges as one chain of Béziers without any gap; arcs are within 1e-7 of their radius."""
-    parts = [_beziers(edge).copy() for edge in edges]
+    parts = [cubics_of(edge, ARC_STEP_RAD).points.copy() for edge in edges]
     for before, after in itertools.pairwise(parts):
         _join(before, after)
     if closed:
@@ -35,40 +37,18 @@ def as_bulges(edges: Sequence[Edge], *, closed: bool) -> list[tuple[float, float
     vertices: list[tuple[float, float, float]] = []
     for edge in edges:
         if isinstance(edge, Line):
-            vertices.append((*_xy(edge.start), 0.0))
+            vertices.append((*point_of(edge.start), 0.0))
         elif isinstance(edge, Arc):
             parts = max(1, math.ceil(abs(edge.sweep_rad) / math.pi - 1e-9))
             step = edge.sweep_rad / parts
             for index in range(parts):
                 part = Arc(edge.centre, edge.radius_mm, edge.start_rad + index * step, step)
-                vertices.append((*_xy(part.start), math.tan(step / 4)))
+                vertices.append((*point_of(part.start), math.tan(step / 4)))
         else:
             raise ValueError("a polyline of lines and arcs has no Bézier")
     if not closed:
-        vertices.append((*_xy(edges[-1].end), 0.0))
+        vertices.append((*point_of(edges[-1].end), 0.0))
     return vertices
-
-
-def is_circle(edges: Sequence[Edge]) -> bool:
-    """Whether this is one full circle."""
-    return len(edges) == 1 and isinstance(edges[0], Arc) and abs(abs(edges[0].sweep_rad) - math.tau) < 1e-9
-
-
-def _xy(point: Sequence[float] | FloatArray) -> tuple[float, float]:
-    return float(point[0]), float(point[1])
-
-
-def _beziers(edge: Edge) -> FloatArray:
-    if isinstance(edge, BezierChain):
-        return edge.points
-    if isinstance(edge, Line):
-        return straight(edge.start, edge.end).points
-    parts = max(1, math.ceil(abs(edge.sweep_rad) / ARC_STEP_RAD - 1e-9))
-    angles = edge.start_rad + edge.sweep_rad * np.arange(parts + 1) / parts
-    on = np.array(edge.centre) + edge.radius_mm * np.column_stack([np.cos(angles), np.sin(angles)])
-    handle = 4 / 3 * math.tan(edge.sweep_rad / parts / 4) * edge.radius_mm
-    along = handle * np.column_stack([-np.sin(angles), np.cos(angles)])
-    return np.stack([on[:-1], on[:-1] + along[:-1], on[1:] - along[1:], on[1:]], axis=1)
 
 
 def _join(before: FloatArray, after: FloatArray) -> None:

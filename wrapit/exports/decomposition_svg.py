@@ -9,8 +9,9 @@ import numpy as np
 from wrapit.decomposition.model import Solution
 from wrapit.exports.svgpage import FONT, attributes, bounds_with_labels, leader, page, text
 from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.pieces import chain_of, piece
 from wrapit.geometry.svgframe import SvgFrame
 from wrapit.wires.model import Wire
 
@@ -26,7 +27,7 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     low, high = solution.decomposition.drawing.bounds_mm
     size_mm = float(np.clip(np.max(high - low) / 18, 1.6, 3.5))
     ink = np.vstack([chain_of(wire.centreline).sampled(0.3 * size_mm) for wire in wires])
-    labels = place_labels([(_digits(wire), wire.ends[:1]) for wire in wires], ink, size_mm)
+    labels = place_labels([(str(wire.number), wire.ends[:1]) for wire in wires], ink, size_mm)
     low, high = bounds_with_labels(low, high, labels)
     frame = SvgFrame.around(low, high, size_mm)
     doubled = set(solution.doubled)
@@ -38,7 +39,7 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
         body += _ends(wire, frame)
     body += [*_numbers(wires, labels, frame, size_mm), "</g>"]
     count = f"{len(wires)} wire{'s' if len(wires) != 1 else ''}"
-    lengths = ", ".join(f"{_digits(wire)}: {wire.length_mm:.0f} mm" for wire in wires)
+    lengths = ", ".join(f"{wire.number}: {wire.length_mm:.0f} mm" for wire in wires)
     return page(frame, f"The drawing divided into {count}", f"Lengths: {lengths}", body)
 
 
@@ -98,8 +99,3 @@ def _numbers(wires: Sequence[Wire], labels: Sequence[Label], frame: SvgFrame, si
         )  # fmt: skip
         shapes += [f"<rect {box}/>", text(frame, label.centre, label.text, size_mm, fill=OUTLINE)]
     return shapes
-
-
-def _digits(wire: Wire) -> str:
-    """`1` of `wire-01`."""
-    return wire.name.rpartition("-")[2].lstrip("0") or wire.name

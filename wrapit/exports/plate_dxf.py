@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from wrapit.config.plate import CurveStyle, ProfileName
 from wrapit.errors import ExportError
-from wrapit.exports.contour_edges import as_bulges, as_chain, is_circle
+from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
 from wrapit.geometry import Arc, BezierChain, Edge
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
+from wrapit.geometry.outlines.loops import is_circle
 from wrapit.jig.contours import Contour
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import numpy as np
 from wrapit.errors import ExportError
 from wrapit.geometry import FloatArray, Region
 from wrapit.geometry.arclength import ArcLength
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:

@@ -8,8 +8,9 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.arclength import piece
 from wrapit.geometry.label_places import DIGIT_WIDTH, PADDING, Label
-from wrapit.geometry.pieces import piece
+from wrapit.geometry.polyline import at_lengths, lengths
 from wrapit.geometry.svgframe import SvgFrame, number
 
 # One of these is on every system; their digits are about equally wide, so labels fit in each.
@@ -72,9 +73,8 @@ def anchors(curve: BezierChain, *, quickly: bool) -> FloatArray:
     """Points (m, 2) on the curve where its number may stand, the best first; quickly means about there."""
     if quickly:
         points = curve.sampled(curve.length / 32)
-        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-        at = np.array(ANCHOR_SHARES) * along[-1]
-        return np.column_stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)])
+        along = lengths(points)
+        return at_lengths(points, along, np.array(ANCHOR_SHARES) * along[-1])
     return np.array([piece(curve, 0.0, share * curve.length).end for share in ANCHOR_SHARES])
 
 

@@ -110,7 +110,7 @@ class _Picture:
         if wire.name not in self._courses:
             lengths = ArcLength(wire.centreline)
             at_mm = lengths.stations(0.1)
-            lifts = np.interp(at_mm, *np.array(wire.lifts).T) if wire.lifts else np.zeros_like(at_mm)
+            lifts = wire.heights_mm(at_mm)
             points = wire.centreline.at(lengths.parameter(at_mm))
             self._courses[wire.name] = _Course(np.array(self._px(points)), lifts + wire.diameter_mm / 2)
         return self._courses[wire.name]

@@ -1,4 +1,4 @@
-"""One exact B-spline from a chain of Béziers: no refit, corners only where the chain has them."""
+"""One exact B-spline from a chain of Béziers and back: no refit, corners only where the chain has them."""
 
 from __future__ import annotations
 
@@ -12,8 +12,11 @@ import numpy as np
 
 from wrapit.geometry.arrays import FloatArray, locked
 from wrapit.geometry.bezier import BezierChain
+from wrapit.geometry.polyline import total_length
 
-# A joint pole nearer than this (mm) to the place that one smooth spline gives it is dropped.
+# A joint pole nearer than this (mm) to the place that one smooth spline gives it is dropped. That is what
+# rounding leaves of a joint with one tangent; the kernel's own tolerance for one point is 1e-7 mm. On two of
+# our drawings a third more or less changes nothing.
 SMOOTH_JOINT_MM = 5e-7
 
 
@@ -90,6 +93,25 @@ def from_chain(chain: BezierChain) -> BSpline:
     return BSpline(3, np.array(poles), np.array(knots))
 
 
+def chain_of(spline: BSpline) -> BezierChain:
+    """The same curve as cubic Béziers, one for each knot span; ValueError unless the degree is 3.
+
+    Control points are the spline's blossoms at the span's ends (Ramshaw 1987), so corners stay corners.
+    """
+    if spline.degree != 3:
+        raise ValueError(f"only cubic splines become cubic Béziers, not degree {spline.degree}")
+    knots = spline.knots
+    cubics = [
+        [_blossom(spline, index, values) for values in ((a, a, a), (a, a, b), (a, b, b), (b, b, b))]
+        for index, (a, b) in enumerate(itertools.pairwise(knots))
+        if b > a
+    ]
+    points = np.array(cubics)
+    points[1:, 0] = points[:-1, 3]
+    points[0, 0], points[-1, 3] = spline.poles[0], spline.poles[-1]
+    return BezierChain(points)
+
+
 def _knot_steps(points: FloatArray) -> tuple[list[float], list[bool]]:
     """Knot step of each Bézier, and for each joint whether one tangent passes it."""
     steps = [_chord(points[0])]
@@ -109,4 +131,15 @@ def _knot_steps(points: FloatArray) -> tuple[list[float], list[bool]]:
 
 
 def _chord(cubic: FloatArray) -> float:
-    return max(float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum()), 1e-6)
+    return max(total_length(cubic), 1e-6)
+
+
+def _blossom(spline: BSpline, index: int, values: tuple[float, float, float]) -> FloatArray:
+    """Polar form of the polynomial on knot span `index` (de Boor's recursion with three parameters)."""
+    poles = [spline.poles[index - 3 + j] for j in range(4)]
+    for level, value in enumerate(values, start=1):
+        for j in range(3, level - 1, -1):
+            low, high = spline.knots[index - 3 + j], spline.knots[index + 1 + j - level]
+            share = (value - low) / (high - low)
+            poles[j] = (1 - share) * poles[j - 1] + share * poles[j]
+    return poles[3]

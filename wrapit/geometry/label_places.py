@@ -17,9 +17,11 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 # Width of a digit and padding around a label, as shares of the text height.
 DIGIT_WIDTH = 0.62
 PADDING = 0.18
+# Where a label is tried: in sixteen directions, first up and to the right, as on maps, on ever wider rings.
 _ANGLES = np.arange(16) * (np.pi / 8) + np.pi / 4
-_MOST_RINGS = 200
 _DIRECTIONS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
+# Only a bound: sixty labels at one point all found room within it.
+_MOST_RINGS = 200
 
 
 @dataclass(frozen=True)

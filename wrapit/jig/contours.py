@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from wrapit.geometry import Edge
-from wrapit.geometry.outlines.moves import moved
+from wrapit.geometry.outlines.loops import moved
 
 Layer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 

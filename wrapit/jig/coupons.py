@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Line, Loop, Region
-from wrapit.geometry.outlines.moves import reversed_loop, rounded_rectangle
+from wrapit.geometry.outlines.loops import reversed_loop, rounded_rectangle
 from wrapit.jig.contours import Contour
 from wrapit.jig.lettering import engraved_text
 

@@ -73,7 +73,7 @@ def parted(
 
 
 def _name(group: tuple[Wire, ...]) -> str:
-    return "jig-" + "-".join([group[0].name, *(wire.name.removeprefix("wire-") for wire in group[1:])])
+    return "jig-" + "-".join([group[0].name, *(f"{wire.number:02d}" for wire in group[1:])])
 
 
 def grouped(wires: Sequence[Wire], alone: Mapping[str, float], config: JigConfig) -> list[tuple[Wire, ...]]:

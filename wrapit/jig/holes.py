@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from wrapit.config import JigConfig
-from wrapit.geometry import Arc, FloatArray, Line, Loop
+from wrapit.geometry import FloatArray, Line, Loop
 from wrapit.geometry.outlines.exact import Outliner
+from wrapit.geometry.outlines.loops import circle
 from wrapit.jig.channel import Course
 from wrapit.jig.model import Hole
 from wrapit.jig.tails import FOOT_MM, tail_slots
@@ -59,7 +59,7 @@ def _outline(tails: list[FloatArray], diameter: float) -> Loop:
     lines += [np.array([a, b]) for a, b in _spanning(starts) if np.linalg.norm(b - a) > 1e-3]
     if not lines:
         x, y = (float(value) for value in starts[0])
-        return Loop((Arc((x, y), diameter / 2, 0.0, 2 * math.pi),))
+        return circle((x, y), diameter / 2)
     edges = [Line(_xy(a), _xy(b)) for a, b in lines]
     grown = shapely.buffer([shapely.LineString(line) for line in lines], diameter / 2 + _PAD_MM, quad_segs=32)
     whole = shapely.union_all(grown)

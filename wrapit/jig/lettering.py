@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from wrapit.geometry import FloatArray, Line
+from wrapit.geometry.polyline import steps
 from wrapit.jig.contours import Contour
 
 # Capitals of the Hershey font fill three quarters of its full height.
@@ -56,7 +57,7 @@ def _font() -> Any:
 
 
 def _distinct(stroke: FloatArray) -> FloatArray:
-    keep = np.append(True, np.linalg.norm(np.diff(stroke, axis=0), axis=1) > 1e-6)
+    keep = np.append(True, steps(stroke) > 1e-6)
     return stroke[keep]
 
 

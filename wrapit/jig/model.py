@@ -8,7 +8,7 @@ from typing import Any, Literal
 from shapely import Polygon
 
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.moves import circle
+from wrapit.geometry.outlines.loops import circle
 from wrapit.wires.model import Turn
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import steps
 from wrapit.jig.channel import SIDES, Course
 from wrapit.wires.model import Turn
 
@@ -59,9 +60,9 @@ def blank(course: Course, turn: Turn, config: JigConfig) -> Any:
 
     depth = course.reach_mm + config.wall_thickness
     _, points, normals, curvature = course.stations(turn, STEP_MM, config.min_wall_width)
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    if (np.abs(curvature[:-1]) * steps).max() > math.radians(6):
-        finer = STEP_MM * math.radians(6) / float((np.abs(curvature[:-1]) * steps).max())
+    turning = np.abs(curvature[:-1]) * steps(points)
+    if turning.max() > math.radians(6):
+        finer = STEP_MM * math.radians(6) / float(turning.max())
         _, points, normals, _ = course.stations(turn, max(finer, 0.03), config.min_wall_width)
     strips = []
     for side in SIDES[turn.inside]:

@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from wrapit.config import JigConfig
 from wrapit.geometry.arclength import ArcLength
 from wrapit.jig.channel import Course
@@ -30,7 +28,7 @@ def wall_heights(course: Course, polygons: Sequence[Any], config: JigConfig) -> 
     for wire in raised:
         lengths = ArcLength(wire.centreline)
         at_mm = lengths.stations(STEP_MM)
-        z_mm = np.interp(at_mm, *np.array(wire.lifts).T)
+        z_mm = wire.heights_mm(at_mm)
         points = shapely.points(wire.centreline.at(lengths.parameter(at_mm)))
         reach = course.reach_mm + BESIDE_MM
         for point, wall in zip(*tree.query(points, predicate="dwithin", distance=reach), strict=True):

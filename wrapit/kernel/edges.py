@@ -12,6 +12,7 @@ import numpy as np
 from wrapit.errors import KernelError
 from wrapit.geometry import Arc, BezierChain, BSpline, Edge, FloatArray, Line, Loop, Region, from_chain
 from wrapit.geometry.outlines.polygons import loop_area_mm2
+from wrapit.geometry.polyline import steps
 
 # How many spans may an edge have? OCCT (and every program on it) integrates areas and volumes along an edge
 # with few points however many spans it has: long splines made a jig's volume wrong by up to 1.4e-3. Over
@@ -111,7 +112,7 @@ def _short(edge: Edge) -> list[Edge]:
 
 def _without_slivers(points: FloatArray) -> FloatArray:
     """The cubics (n, 4, 2) less those too short for an edge of their own; the ends stay where they are."""
-    long = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1) > SLIVER_MM
+    long = steps(points).sum(axis=1) > SLIVER_MM
     if long.all() or not long.any():
         return points
     kept = points[long].copy()

@@ -9,20 +9,23 @@ from typing import Any
 import numpy as np
 
 from wrapit.config import BailConfig, Config
+from wrapit.decomposition.json_file import wire_name
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding, WireError
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import cut
 from wrapit.geometry.bezier import joined as as_one
+from wrapit.geometry.polyline import steps
 from wrapit.materials import min_inner_bend_radius_mm
 from wrapit.wires.bail_loop import Eye, EyeSize, best_eye
 from wrapit.wires.centreline import Joined
 from wrapit.wires.model import Bail
 
+# How closely wires are looked at for the centre of gravity and for touching.
 STEP_MM = 0.05
 PLUMB_MM = 0.1  # the top is the highest place so near to the line through the centre of gravity
 STEM_DIAMETERS = 4.0  # so much of a wire before its end belongs to the neck
-EXTRA_MM = 0.02
+EXTRA_MM = 0.02  # more than the narrowest wall needs, or rounding would leave it out
 
 
 def with_bail(
@@ -89,8 +92,8 @@ def _size(bail: BailConfig, config: Config) -> EyeSize:
 
 
 def _weights(cloud: FloatArray) -> FloatArray:
-    steps = np.linalg.norm(np.diff(cloud, axis=0), axis=1) / 2
-    return np.concatenate([steps, [0.0]]) + np.concatenate([[0.0], steps])
+    halves = steps(cloud) / 2
+    return np.concatenate([halves, [0.0]]) + np.concatenate([[0.0], halves])
 
 
 def _ends_near(chains: Sequence[BezierChain], place: FloatArray, reach_mm: float) -> list[tuple[int, bool]]:
@@ -142,7 +145,7 @@ def _loop_finding(bail: Bail, index: int) -> Finding:
     return Finding(
         "note",
         "bail",
-        f"wire-{index + 1:02d} at {(bail.start_mm + bail.end_mm) / 2:.0f} mm",
+        f"{wire_name(index)} at {(bail.start_mm + bail.end_mm) / 2:.0f} mm",
         f"its end goes on into a loop of {bail.inner_diameter_mm:g} mm inside, round"
         f" ({bail.centre[0]:.1f}, {bail.centre[1]:.1f}) mm",
         "hang the piece from it; wrap the tail round the neck",

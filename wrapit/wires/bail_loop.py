@@ -11,16 +11,16 @@ import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.bezier import joined
-from wrapit.geometry.outlines.loops import Arc
-from wrapit.geometry.outlines.parallels import as_chain
+from wrapit.geometry.outlines.loops import Arc, as_chain
 
 GAP_MM = 0.05  # between the loop's end and the neck, so that the wire needn't climb over itself
+# Which eyes are tried, and which is best: straight necks of these lengths, bent by multiples of the step.
 NECKS_DIAMETERS = (0.0, 1.0, 2.0, 3.0)
 NECK_STEP_RAD = math.radians(5)
-LEAST_SWEEP_RAD = math.radians(270)
+LEAST_SWEEP_RAD = math.radians(270)  # out of a wider gap a chain slips
 MOST_ASIDE_RAD = math.radians(60)  # the loop lies outward of the wire's end, at most so far aside
 NECK_COST_RAD = math.radians(3)  # a neck longer by a diameter counts like a loop so much farther aside
-SAMPLE_MM = 0.005
+SAMPLE_MM = 0.005  # chords of this length lie within 3e-6 mm of an arc of 1 mm radius
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,8 @@ from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, cut
 from wrapit.wires.rounding import NO_BLEND, Blend, best_blend
 
+# What is rounded, how far, and what isn't. On three of our drawings a third more or less of the first three
+# moves no wire; they bound what strange drawings may ask for.
 SMOOTH_BEND_RAD = 1e-4  # smaller bends are noise: turning the handles moves the curve by less than a micron
 RELAX_RADII = 4.0  # how far beyond a tight span a wire may leave the drawing to widen it
 MAX_TRIM = 0.45  # share of a segment that one corner may use up

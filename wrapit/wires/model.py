@@ -6,9 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Traversal
 from wrapit.geometry import BSpline, FloatArray
 
+# Between a jump ring and the wire it hangs on: it swings, and the kernel sees two solids that don't touch.
 RING_GAP_MM = 0.05
 Side = Literal["left", "right", "both"]
 
@@ -85,10 +89,11 @@ class JumpRing:
 class Wire:
     """One wire; its centreline is one exact cubic B-spline in the plane, in mm.
 
+    `number` counts from 1, in the order in which the wires are laid; it is engraved and drawn, and names it.
     `segment_spans_mm[i]` is where traversal i starts and ends along the wire.
     """
 
-    name: str
+    number: int
     centreline: BSpline
     diameter_mm: float
     length_mm: float
@@ -107,6 +112,15 @@ class Wire:
     """Height of the centreline over the lowest layer, (at_mm, z_mm) smooth between; empty is flat."""
 
     bail: Bail | None = None
+
+    def heights_mm(self, at_mm: FloatArray) -> FloatArray:
+        """Heights (m,) of the centreline over the lowest layer at places (m,) along the wire."""
+        return np.interp(at_mm, *np.array(self.lifts).T) if self.lifts else np.zeros(len(at_mm))
+
+    @property
+    def name(self) -> str:
+        """What files and findings call it, such as `wire-01`."""
+        return wire_name(self.number - 1)
 
     @property
     def ends(self) -> FloatArray:

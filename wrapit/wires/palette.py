@@ -8,6 +8,7 @@ _FIRST = (
     "#c1440e", "#1f6fb2", "#2e8540", "#8a3ffc", "#b8860b", "#0f8b8d", "#c2185b", "#5d4037",
     "#3949ab", "#6b8e23", "#d2691e", "#7b1fa2",
 )  # fmt: skip
+# Further hues: steps of the golden ratio never come near one another twice.
 _GOLDEN = 0.618034
 
 

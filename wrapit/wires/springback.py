@@ -19,6 +19,7 @@ from wrapit.wires.model import Wire
 from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.turns import find_turns
 
+# How closely a wire is compared with itself let go, of which the worst place is told to 0.01 mm.
 STEP_MM = 0.1
 STRAIGHT = 0.2  # wires bent by less than this share of the loss count as nearly straight
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wrapit.config import Config, JigConfig
+from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Solution, Trail
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
@@ -19,7 +20,7 @@ from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.ties import find_bindings
 from wrapit.wires.turns import find_turns
 
-CURVATURE_STEP_MM = 0.02
+CURVATURE_STEP_MM = 0.02  # the tightest bends of our drawings are the same with 0.014 and 0.026
 MIN_MARGIN_SHARE = 0.15  # of the length, for holding and bending
 
 
@@ -34,7 +35,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
     corner_mm = _let_go_mm(max(radius_mm, _post_bend_mm(wire.gauge, config.jig)), config)
     joined = [join(_curves(drawing, trail), corner_mm) for trail in solution.trails]
     joined, bails, said = with_bail(joined, drawing, config)
-    names = [f"wire-{number:02d}" for number in range(1, len(joined) + 1)]
+    names = [wire_name(index) for index in range(len(joined))]
     splines = [from_chain(each.chain) for each in joined]
     bindings = find_bindings(drawing, solution.trails, names, [each.spans_mm for each in joined])
     lifts = lay_wires(splines, wire.gauge)
@@ -51,7 +52,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
         margin_mm = max(config.guide.margin, MIN_MARGIN_SHARE * length_mm)
         wires.append(
             Wire(
-                name=name,
+                number=index + 1,
                 centreline=spline,
                 diameter_mm=wire.gauge,
                 length_mm=length_mm,

@@ -13,6 +13,8 @@ from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.wires.model import Turn
 
+# How closely curvature is looked at: with 0.035 or 0.065 the turns of three of our drawings (707 mm) are the
+# same ones and change by 0.1 mm together.
 STEP_MM = 0.05
 MERGE_MM = 1.5  # a straighter gap this short inside a turn is part of it
 END_CLEARANCE_MM = 3.0  # long stretches are held only where no turn's wall is near

@@ -11,6 +11,7 @@ import numpy as np
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle, angle_of, horner, nearest_along, polynomial
 
 # In stroke widths.
@@ -40,7 +41,7 @@ class Arm:
     @cached_property
     def along(self) -> FloatArray:
         """Length from the first point, (n,)."""
-        return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
+        return lengths(self.points)
 
     @property
     def length(self) -> float:

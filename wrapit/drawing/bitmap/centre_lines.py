@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.polyline import at_lengths, lengths
 
 # In stroke widths, unless the name says otherwise.
 _INSIDE = 0.25
@@ -117,16 +118,10 @@ def _running_median(width: FloatArray, along: FloatArray, width_px: float) -> Fl
     return median_filter(np.nan_to_num(width, nan=2 * width_px), size, mode="reflect")
 
 
-def lengths(points: FloatArray) -> FloatArray:
-    """Length of a chain of points from its start to each of them, (n,)."""
-    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-
-
 def _resampled(path: FloatArray, step: float) -> FloatArray:
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    along = lengths(path)
     count = max(3, int(np.ceil(along[-1] / step)) + 1)
-    at = np.linspace(0, along[-1], count)
-    return np.column_stack([np.interp(at, along, path[:, 0]), np.interp(at, along, path[:, 1])])
+    return at_lengths(path, along, np.linspace(0, along[-1], count))
 
 
 def smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:

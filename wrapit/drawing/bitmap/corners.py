@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.drawing.bitmap.arms import arm
-from wrapit.drawing.bitmap.centre_lines import Line, lengths
+from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle, polynomial
 
 # In stroke widths.

@@ -7,11 +7,12 @@ import math
 import numpy as np
 
 from wrapit.drawing.bitmap.arms import arm
-from wrapit.drawing.bitmap.centre_lines import Line, lengths
+from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ends import place_end
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import Network, polyline_length
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle
 
 # Ink gaps in stroke widths, between two ends and between an end and the side of a stroke.

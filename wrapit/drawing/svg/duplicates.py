@@ -13,6 +13,7 @@ from wrapit.drawing.svg.neighbours import Boxes, Course, Parallels
 from wrapit.drawing.svg.planar import Curve, stretch
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.polyline import lengths, total_length
 
 # In stroke widths: how near, over what length, and how much a rest is worth keeping.
 _NEAR = 0.3
@@ -93,13 +94,13 @@ class _Laid:
 def _course(curve: Curve, width: float) -> Course:
     points, at = [], []
     for k, cubic in enumerate(curve.cubics):
-        hull = float(np.linalg.norm(np.diff(cubic, axis=0), axis=1).sum())
+        hull = total_length(cubic)
         t = np.linspace(0, 1, int(np.clip(hull / (_FINE * width), 4, 400)) + 1)
         last = k == len(curve.cubics) - 1
         points.append(evaluate(cubic[None], t)[0][: None if last else -1])
         at.append((k + t)[: None if last else -1])
     chain = np.concatenate(points)
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(chain, axis=0), axis=1))])
+    along = lengths(chain)
     return Course(chain, np.concatenate(at), along)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from wrapit.drawing.assembly import Piece
 from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.disjoint_sets import Sets
+from wrapit.geometry.polyline import evenly
 
 # Points along a piece where it is compared with another.
 _COMPARED = 9
@@ -45,9 +46,7 @@ def _doubles(pieces: list[Piece], bundle: list[int], tolerance: float) -> set[in
 
 def _at_shares(curve: BezierChain) -> FloatArray:
     points = curve.sampled(max(curve.length / 200, 1e-9))
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    at = np.linspace(0, along[-1], _COMPARED)
-    return np.column_stack([np.interp(at, along, points[:, k]) for k in (0, 1)])
+    return evenly(points, _COMPARED)
 
 
 def without_stubs(pieces: list[Piece], reach: float) -> tuple[list[Piece], list[tuple[FloatArray, float]]]:

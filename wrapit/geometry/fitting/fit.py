@@ -15,6 +15,7 @@ import numpy as np
 from wrapit.geometry.arrays import FloatArray, IntArray, unit
 from wrapit.geometry.bezier import BezierChain
 from wrapit.geometry.fitting.solve import Pieces, ranges, solve
+from wrapit.geometry.polyline import lengths
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ def fit_all(strokes: Sequence[Stroke], tolerance: float, reach: float | None = N
     points = np.concatenate([stroke.points for stroke in strokes])
     lasts = np.cumsum([len(stroke.points) for stroke in strokes]) - 1
     firsts = np.concatenate([[0], lasts[:-1] + 1])
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    along = lengths(points)
     course = _Course(points, along, firsts, lasts, 4 * tolerance if reach is None else reach)
     pieces = Pieces(
         firsts,

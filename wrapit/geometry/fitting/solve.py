@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 from wrapit.geometry.arrays import FloatArray, IntArray
 
+# How often parameters are bettered before a piece is split (four times, as Schneider does), and how many
+# tolerances away that is not tried. Both trade time for Béziers: 60 noisy waves of 300 points take 1134,
+# 1064, 1036 with 3, 4, 5 rounds, and 1132, 1064, 1021 for 7, 10, 13 tolerances.
 _ITERATIONS = 4
 _HOPELESS = 10.0
 Complex: TypeAlias = NDArray[np.complex128]

@@ -20,12 +20,16 @@ from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.outlines.handover import Run, meet
-from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region
-from wrapit.geometry.outlines.parallels import Parallel, Round, Side, as_chain
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region, as_chain, point_of
+from wrapit.geometry.outlines.parallels import Parallel, Round, Side
 from wrapit.geometry.outlines.polygons import fitted_edges
+from wrapit.geometry.polyline import signed_area
 
+# How close together a polygon's points are, when its sides are recognised: a third more or less moves the
+# area of 16 walls (2250 mm²) by 0.02 mm².
 STEP_MM = 0.1
 SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
+# How near free sides are to the polygon; nothing rests on them. At 0.0035 they have 7 % more cubics.
 FREE_TOLERANCE_MM = 0.005
 
 
@@ -64,7 +68,7 @@ class Outliner:
             start, finish = ends[index - 1].entering, ends[index].leaving
             edges += self._edges(run, start.place, finish.place, start.point, finish.point)
             if ends[index].bridged:
-                edges.append(Line(_xy(finish.point), _xy(ends[index].entering.point)))
+                edges.append(Line(point_of(finish.point), point_of(ends[index].entering.point)))
         return Loop(tuple(_snapped(edges)))
 
     def _runs(self, points: FloatArray) -> tuple[list[Run], bool]:
@@ -96,7 +100,7 @@ class Outliner:
     def _whole(self, run: Run) -> list[Edge]:
         """A ring that is one run: a full circle, a closed parallel without seam in sight, or free."""
         if isinstance(run.parallel, Round):
-            turn = math.copysign(2 * math.pi, _signed_area(run.points))
+            turn = math.copysign(2 * math.pi, signed_area(run.points))
             return [Arc(run.parallel.centre, run.parallel.radius_mm, float(run.place[0]), turn)]
         if run.parallel is None:
             half = int(np.linalg.norm(run.points - run.points[0], axis=1).argmax())
@@ -104,7 +108,7 @@ class Outliner:
             return _snapped(self._free(run.points[: half + 1]) + self._free(back))
         start, end = float(run.place[0]), float(run.place[-1])
         ends = run.parallel.at(np.array([start, end]))[0]
-        return _snapped([run.parallel.between(start, end), Line(_xy(ends[1]), _xy(ends[0]))])
+        return _snapped([run.parallel.between(start, end), Line(point_of(ends[1]), point_of(ends[0]))])
 
     def _edges(self, run: Run, start: float, end: float, first: FloatArray, last: FloatArray) -> list[Edge]:
         if run.parallel is None:
@@ -122,7 +126,7 @@ class Outliner:
         if all(self._clear(edge) for edge in edges):
             return edges
         thinned = _without_needless(points)
-        return [Line(_xy(a), _xy(b)) for a, b in itertools.pairwise(thinned)]
+        return [Line(point_of(a), point_of(b)) for a, b in itertools.pairwise(thinned)]
 
     def _clear(self, edge: Edge) -> bool:
         if isinstance(edge, Line):
@@ -145,7 +149,7 @@ class _Names:
             found = next((n for n in near if n is not None), None)
             if found is None:
                 found = len(self.points)
-                self.points.append(_xy(point))
+                self.points.append(point_of(point))
             self._known[key] = found
         return self._known[key]
 
@@ -227,7 +231,7 @@ def _arc_point(edge: Edge, *, last: bool) -> tuple[float, float] | None:
 
 
 def _end(edge: Edge) -> tuple[float, float]:
-    return _xy(edge.end) if isinstance(edge, BezierChain) else edge.end
+    return point_of(edge.end) if isinstance(edge, BezierChain) else edge.end
 
 
 def _without_needless(points: FloatArray) -> FloatArray:
@@ -235,12 +239,3 @@ def _without_needless(points: FloatArray) -> FloatArray:
     a, b = np.diff(points[:-1], axis=0), np.diff(points[1:], axis=0)
     bent = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-9
     return points[np.concatenate([[True], bent, [True]])]
-
-
-def _signed_area(points: FloatArray) -> float:
-    x, y = points.T
-    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()) / 2
-
-
-def _xy(point: FloatArray) -> tuple[float, float]:
-    return float(point[0]), float(point[1])

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from wrapit.geometry.outlines.exact import Outliner
-from wrapit.geometry.outlines.loops import Arc, Loop, Region
+from wrapit.geometry.outlines.loops import Arc, Loop, Region, is_circle
 
 # The sampled outline lies this near to the true one (chords of 0.02 mm), much less than any kerf.
 _SAMPLE_MM = 1e-4
@@ -22,9 +21,10 @@ def offset_region(region: Region, distance_mm: float) -> tuple[Region, ...]:
 
     if distance_mm == 0:
         return (region,)
-    if not region.holes and (centre := _circle(region.outer)) is not None:
-        radius_mm = centre.radius_mm + distance_mm
-        arc = Arc(centre.centre, radius_mm, centre.start_rad, centre.sweep_rad)
+    (first, *_) = region.outer.edges
+    if not region.holes and is_circle(region.outer.edges) and isinstance(first, Arc):
+        radius_mm = first.radius_mm + distance_mm
+        arc = Arc(first.centre, radius_mm, first.start_rad, first.sweep_rad)
         return (Region(Loop((arc,))),) if radius_mm > 0 else ()
     loops = (region.outer, *region.holes)
     flat = Polygon(_ring(region.outer), [_ring(hole) for hole in region.holes])
@@ -35,12 +35,6 @@ def offset_region(region: Region, distance_mm: float) -> tuple[Region, ...]:
     parts = [part for part in get_parts(moved) if part.geom_type == "Polygon" and not part.is_empty]
     parts.sort(key=lambda part: part.bounds)
     return tuple(outliner.region(orient(part)) for part in parts)
-
-
-def _circle(loop: Loop) -> Arc | None:
-    (*others, edge) = loop.edges
-    full = isinstance(edge, Arc) and abs(abs(edge.sweep_rad) - math.tau) < 1e-9
-    return edge if full and not others and isinstance(edge, Arc) else None
 
 
 def _ring(loop: Loop) -> Any:

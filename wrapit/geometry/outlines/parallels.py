@@ -14,32 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.geometry.arrays import FloatArray, unit
-from wrapit.geometry.bezier import BezierChain, evaluate, straight
+from wrapit.geometry.bezier import BezierChain, evaluate
 from wrapit.geometry.curveset import CurveSet
-from wrapit.geometry.outlines.loops import Arc, Edge, Line, Point
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Point, point_of
 
 BoolArray: TypeAlias = NDArray[np.bool_]
+# How near cubics are to a parallel: walls measure 0.19995 mm from wires for a clearance of 0.2. At 3.5e-5 mm
+# the same outlines have 3 % more cubics.
 TOLERANCE_MM = 5e-5
-_ARC_PIECE_RAD = math.pi / 24
+# Where each is compared with the true parallel; where it turns more than the second, that is not enough.
 _CHECKS = np.array([0.25, 0.5, 0.75])
 _MAX_TURNING_RAD = 0.8
 _NARROWEST = 1e-9  # a share of a cubic; a cusp all but turns at once
-
-
-def as_chain(edge: Edge) -> BezierChain:
-    """The edge as cubics; arcs within 1e-9 of their radius (pieces of 7.5°)."""
-    if isinstance(edge, BezierChain):
-        return edge
-    if isinstance(edge, Line):
-        return straight(edge.start, edge.end)
-    count = max(1, math.ceil(abs(edge.sweep_rad) / _ARC_PIECE_RAD - 1e-9))
-    angles = edge.start_rad + edge.sweep_rad * np.linspace(0, 1, count + 1)
-    handle = 4 / 3 * math.tan(edge.sweep_rad / count / 4)
-    radial = np.column_stack([np.cos(angles), np.sin(angles)])
-    along = np.column_stack([-np.sin(angles), np.cos(angles)]) * handle
-    a, b = radial[:-1], radial[1:]
-    unit_points = np.stack([a, a + along[:-1], b - along[1:], b], axis=1)
-    return BezierChain(np.array(edge.centre) + edge.radius_mm * unit_points)
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,14 +70,14 @@ class Side:
         """The parallel from one place to another (either may be the larger), within TOLERANCE_MM."""
         if isinstance(self.edge, Line):
             ends = self.at(np.array([start, end]))[0]
-            return Line(_point(ends[0]), _point(ends[1]))
+            return Line(point_of(ends[0]), point_of(ends[1]))
         if isinstance(self.edge, Arc):
             ends = self.at(np.array([start, end]))[0]
             return _arc_like(self.edge, self.offset_mm, ends[0], ends[1], forward=end > start)
         chain = self._cubics(min(start, end), max(start, end))
         if _is_straight(chain):
             a, b = (chain.start, chain.end) if end > start else (chain.end, chain.start)
-            return Line(_point(a), _point(b))
+            return Line(point_of(a), point_of(b))
         return chain if end > start else chain.reversed()
 
     def _cubics(self, start: float, end: float) -> BezierChain:
@@ -149,10 +135,6 @@ def _is_straight(chain: BezierChain) -> bool:
     points = chain.points.reshape(-1, 2) - chain.start
     along = unit(chain.end - chain.start)
     return bool(np.abs(along[0] * points[:, 1] - along[1] * points[:, 0]).max() < 1e-9)
-
-
-def _point(xy: FloatArray) -> Point:
-    return float(xy[0]), float(xy[1])
 
 
 def _parallel_points(cubics: FloatArray, t: FloatArray, offset: float) -> tuple[FloatArray, FloatArray]:

@@ -10,10 +10,12 @@ import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain
-from wrapit.geometry.bspline import BSpline
-from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import BSpline, chain_of
+from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region, point_of
+from wrapit.geometry.polyline import lengths, steps, total_length
 
+# What stays a corner, what is straight, and how close points stand on straight stretches before a curve is
+# fitted: each a third more or less leaves all free sides of two of our drawings as they are.
 CORNER_RAD = math.radians(20)
 STRAIGHT_MM = 1e-4
 FIT_STEP_MM = 0.25
@@ -46,8 +48,7 @@ def fitted_edges(points: FloatArray, tolerance_mm: float) -> list[Edge]:
 
     Corners sharper than 20° stay corners; between them the curve keeps within the tolerance of the points.
     """
-    steps = np.diff(points, axis=0)
-    points = points[np.concatenate([[True], np.linalg.norm(steps, axis=1) > 1e-7])]
+    points = points[np.concatenate([[True], steps(points) > 1e-7])]
     if len(points) < 2:
         return []
     points = _with_points_between(points)
@@ -59,8 +60,7 @@ def fitted_edges(points: FloatArray, tolerance_mm: float) -> list[Edge]:
 
 def _with_points_between(points: FloatArray) -> FloatArray:
     """The points, and more on long straight stretches, where a curve could otherwise swing out."""
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    counts = np.ceil(steps / FIT_STEP_MM).astype(int)
+    counts = np.ceil(steps(points) / FIT_STEP_MM).astype(int)
     parts = [
         a + (b - a) * (np.arange(count) / count)[:, None]
         for a, b, count in zip(points[:-1], points[1:], counts, strict=True)
@@ -92,9 +92,9 @@ def _smooth_edge(points: FloatArray, tolerance_mm: float) -> Edge:
     chord = end - start
     length = float(np.hypot(*chord))
     away = np.abs(chord[0] * (points[:, 1] - start[1]) - chord[1] * (points[:, 0] - start[0]))
-    travelled = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    travelled = total_length(points)
     if len(points) == 2 or (travelled - length <= STRAIGHT_MM and away.max() <= STRAIGHT_MM * length):
-        return Line((float(start[0]), float(start[1])), (float(end[0]), float(end[1])))
+        return Line(point_of(start), point_of(end))
     return _through(points, tolerance_mm)
 
 
@@ -102,7 +102,7 @@ def _through(points: FloatArray, tolerance_mm: float) -> BezierChain:
     """A smooth cubic spline through ever more of the points, until all are within the tolerance."""
     from scipy.interpolate import make_interp_spline
 
-    u = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    u = lengths(points)
     chosen = np.unique(np.linspace(0, len(points) - 1, 5).round().astype(int))
     while True:
         degree = min(3, len(chosen) - 1)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from wrapit.geometry.outlines.moves import circle, rounded_rectangle
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import circle, rounded_rectangle
 from wrapit.jig.contours import Contour, FlatDrawing
 from wrapit.jig.lettering import engraved_text, text_size_mm
 from wrapit.jig.pegs.model import PegPlan, hole_name

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.geometry.outlines.moves import circle
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.svgframe import SvgFrame, number
 from wrapit.jig.pegs.model import PegPlan, hole_name
 from wrapit.wires.model import Wire

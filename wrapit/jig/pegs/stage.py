@@ -8,7 +8,7 @@ from typing import Final
 from wrapit.config import Config
 from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Region
-from wrapit.geometry.outlines.moves import circle, rounded_rectangle
+from wrapit.geometry.outlines.loops import circle, rounded_rectangle
 from wrapit.jig.channel import Course
 from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires, reported
 from wrapit.jig.pegs.drawing import board_drawing

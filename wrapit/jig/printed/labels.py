@@ -36,13 +36,12 @@ def wire_labels(
     depth = min(DEPTH_MM, most_depth_mm)
     labels, missing = [], []
     for wire in course.wires:
-        number = int("".join(c for c in wire.name if c.isdigit()) or 0)
-        spot = _spot(number, tuple(wire.ends[0].tolist()), room, (under, taken))
+        spot = _spot(wire.number, tuple(wire.ends[0].tolist()), room, (under, taken))
         if spot is None:
             missing.append(wire.name)
             continue
         strokes = tuple(region_of(part) for part in shapely.get_parts(spot))
-        labels.append(Label(str(number), strokes, depth))
+        labels.append(Label(str(wire.number), strokes, depth))
         grown = spot.buffer(GAP_MM)
         taken, under = taken.union(grown), under.union(grown)
     findings: list[Finding] = []

@@ -11,7 +11,7 @@ import numpy as np
 
 from wrapit.config import JigConfig, SeatConfig
 from wrapit.errors import JigError
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
 from wrapit.jig.channel import Course
 from wrapit.jig.model import Seat
 from wrapit.wires.model import Wire

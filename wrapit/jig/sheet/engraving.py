@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, Region
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.pieces import chain_of, piece
+from wrapit.geometry.polyline import at_lengths, lengths
 from wrapit.jig.contours import Contour
 from wrapit.jig.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.inlays import polygon_of
@@ -45,7 +47,7 @@ def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, .
     placed: tuple[Label, ...] = ()
     for size_mm, near in NUMBER_PLACES:
         anchors = [wire.ends[:1] if near == "start" else wire.centreline.at(_spread(wire)) for wire in left]
-        wanted = [(number_of(wire), points) for wire, points in zip(left, anchors, strict=True)]
+        wanted = [(str(wire.number), points) for wire, points in zip(left, anchors, strict=True)]
         labels = place_labels(wanted, ink, size_mm, placed)
         fits = [area.contains(box(*_corners(label))) for label in labels]
         for label in itertools.compress(labels, fits):
@@ -77,11 +79,6 @@ def label_on(part: Region, text: str, *, least_mm: float, force: bool = False) -
         return ()
     size_mm = float(np.clip(fitting_mm, least_mm, LARGEST_LABEL_MM))
     return engraved_text(text, (float(centre[0]), float(centre[1])), size_mm)
-
-
-def number_of(wire: Wire) -> str:
-    """`1` of `wire-01`."""
-    return wire.name.rpartition("-")[2].lstrip("0") or wire.name
 
 
 def parts_inside(chain: BezierChain, area: BaseGeometry) -> list[BezierChain]:
@@ -138,6 +135,5 @@ def _points_outside(area: BaseGeometry) -> FloatArray:
 def _points(chain: BezierChain, stations: FloatArray) -> FloatArray:
     """Points (m, 2) at arc lengths (m,), near enough to tell inside from outside."""
     dense = chain.sampled(0.02)
-    reach = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(dense, axis=0), axis=1))])
-    scaled = stations * reach[-1] / stations[-1]
-    return np.column_stack([np.interp(scaled, reach, dense[:, axis]) for axis in (0, 1)])
+    reach = lengths(dense)
+    return at_lengths(dense, reach, stations * reach[-1] / stations[-1])

@@ -9,8 +9,8 @@ import numpy as np
 
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.moves import rounded_rectangle
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import rounded_rectangle
 from wrapit.jig.model import Hole
 from wrapit.wires.model import Wire
 

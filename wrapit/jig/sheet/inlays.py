@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Line, Loop, Region
-from wrapit.geometry.outlines.moves import oriented, reversed_loop
+from wrapit.geometry.outlines.loops import oriented, reversed_loop
 from wrapit.jig.contours import Contour
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wrapit.geometry import Region
-from wrapit.geometry.pieces import chain_of
+from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.svgframe import SvgFrame, number
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.wires.model import Wire

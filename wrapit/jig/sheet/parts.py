@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.moves import circle, oriented, reversed_loop, rounded_rectangle
+from wrapit.geometry.outlines.loops import circle, oriented, reversed_loop, rounded_rectangle
 from wrapit.jig.contours import Contour
 from wrapit.jig.lettering import engraved_text
 from wrapit.jig.model import Hole

@@ -9,7 +9,7 @@ from typing import Any
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
-from wrapit.geometry.outlines.moves import circle
+from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Course
 from wrapit.jig.grouping import parted

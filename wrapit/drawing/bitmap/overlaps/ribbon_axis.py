@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.centre_lines import Line, lengths
+from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.overlaps.short import excess
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray, IntArray
+from wrapit.geometry.polyline import at_lengths, lengths
 
 # In stroke widths.
 _LONGEST = 60.0
@@ -97,7 +98,7 @@ def _is_opening(net: Network, lines: dict[int, Line], strand: int, width_px: flo
 def _at_shares(points: FloatArray, share: FloatArray) -> FloatArray:
     along = lengths(points)
     at = share * along[-1]
-    return np.column_stack([np.interp(at, along, points[:, k]) for k in (0, 1)])
+    return at_lengths(points, along, at)
 
 
 def even(parts: list[FloatArray], width_px: float) -> FloatArray:

@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.arms import Arm, arm
-from wrapit.drawing.bitmap.centre_lines import Line, edges, lengths, smoothed
+from wrapit.drawing.bitmap.centre_lines import Line, edges, smoothed
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.ribbon_axis import LONGEST_FLAT, Course, course_of, even, longest_run
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray, IntArray, unit
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle
 
 # In stroke widths.

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.arms import Arm
-from wrapit.drawing.bitmap.centre_lines import Line, lengths
+from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.gaps import rejoin
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.ribbons import Ribbon, find_ribbons
 from wrapit.drawing.bitmap.strand_graph import Network
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import lengths
 
 _ROUNDS = 3
 # In stroke widths: shorter ribbons are better told by how their strokes bend.

@@ -14,7 +14,8 @@ from tests.jig.metal import circle, scribble
 from wrapit.geometry import Arc, Line
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.outlines.exact import Outliner
-from wrapit.geometry.outlines.parallels import Side, as_chain
+from wrapit.geometry.outlines.loops import as_chain
+from wrapit.geometry.outlines.parallels import Side
 from wrapit.geometry.outlines.polygons import (
     fitted_edges,
     loop_area_mm2,
