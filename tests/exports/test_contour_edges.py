@@ -15,6 +15,7 @@ from wrapit.config import PlateConfig
 from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.plate_svg import plate_svg
 from wrapit.geometry import Arc, Line
+from wrapit.jig.contours import FlatDrawing
 from wrapit.jig.sheet.checks import length_mm
 
 
@@ -43,7 +44,9 @@ def test_bulges_are_the_arcs() -> None:
 def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
     laser, _ = laser_of(hairpin(), PlateConfig())
     sheet = laser.sheets[0]
-    root = ET.fromstring(plate_svg(sheet.contours, sheet.width_mm, sheet.height_mm, "lightburn"))
+    root = ET.fromstring(
+        plate_svg(FlatDrawing("plate", "a & b", sheet.contours, sheet.width_mm, sheet.height_mm))
+    )
     assert root.get("width") == f"{sheet.width_mm:g}mm"
     assert root.get("viewBox") == f"0 0 {sheet.width_mm:g} {sheet.height_mm:g}"
     groups = {group.get("id"): group for group in root if group.tag.endswith("}g")}
