@@ -10,14 +10,14 @@ import pytest
 from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
-from tests.drawing.generated import Points, render
-from tests.drawing.test_bitmaps import degrees
+from tests.drawing.generated import Points, degrees, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError, Finding
 
 SIZE_PX = 600
+
 WIDTH_PX = 9.0
 
 

@@ -1,13 +1,11 @@
-"""Bitmaps of every mode in little memory; files that are something else, cut off or no files at all."""
+"""Bitmaps of every mode in little memory; files that are something else, or cut off."""
 
 from __future__ import annotations
 
 import io
-import os
 import time
 import tracemalloc
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,15 +15,14 @@ from PIL import Image
 
 from tests.drawing.generated import render
 from tests.drawing.mutations import damaged
-from wrapit.config import TracingConfig
+from tests.drawing.refused import PATIENCE_S, refusal
 from wrapit.drawing.bitmap import grey
 from wrapit.drawing.bitmap.image import load_grey
-from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError
 
 SHAPE = (60, 80)
+
 CROSS = [np.array([(10.0, 12), (70, 50)]), np.array([(12.0, 50), (66, 8)])]
-PATIENCE_S = 15.0
 
 
 def ink(shape: tuple[int, int] = SHAPE) -> Image.Image:
@@ -94,16 +91,6 @@ def test_an_animation_shows_its_first_frame(tmp_path):
     assert np.array_equal(load_grey(tmp_path / "a.gif", 10**6)[0], np.asarray(ink()))
 
 
-def refusal(path: Path) -> str:
-    begin = time.process_time()
-    with pytest.raises(DrawingError) as caught:
-        trace(path, TracingConfig(), 40.0)
-    assert time.process_time() - begin < PATIENCE_S
-    assert caught.value.remedy
-    assert "()" not in str(caught.value)
-    return str(caught.value)
-
-
 @pytest.mark.parametrize("suffix", ["png", "jpg", "bmp", "tif", "webp", "gif"])
 @pytest.mark.parametrize(
     ("data", "kind"),
@@ -140,27 +127,6 @@ def test_a_picture_under_the_name_of_another_is_read(tmp_path):
     ink().save(tmp_path / "a.png")
     (tmp_path / "a.png").rename(tmp_path / "a.jpg")
     assert np.array_equal(load_grey(tmp_path / "a.jpg", 10**6)[0], np.asarray(ink()))
-
-
-def test_what_is_no_file_is_never_opened(tmp_path):
-    (tmp_path / "folder.png").mkdir()
-    os.mkfifo(tmp_path / "pipe.svg")
-    (tmp_path / "device.json").symlink_to("/dev/zero")
-    (tmp_path / "circle.png").symlink_to(tmp_path / "circle.png")
-    assert "folder" in refusal(tmp_path / "folder.png")
-    assert "pipe" in refusal(tmp_path / "pipe.svg")
-    assert "device" in refusal(tmp_path / "device.json")
-    assert "reached" in refusal(tmp_path / "circle.png")
-    (tmp_path / "a.png").write_bytes(b"")
-    assert "no such drawing" in refusal(tmp_path / "a.png" / "b.png")
-
-
-@pytest.mark.parametrize("name", ["a" * 300 + ".png", "a\0b.svg", "a\ud800.json", "a\nb.svg"])
-def test_names_that_no_file_can_have_are_refused(tmp_path, name):
-    message = refusal(tmp_path / name)
-    message.encode("utf-8")
-    assert len(message) < 600
-    assert "\n" not in message
 
 
 def saved(kind: str) -> bytes:
