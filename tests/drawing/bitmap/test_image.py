@@ -16,7 +16,7 @@ from PIL import Image
 from tests.drawing.generated import render
 from tests.drawing.mutations import damaged
 from tests.drawing.refused import PATIENCE_S, refusal
-from wrapit.drawing.bitmap import grey
+from wrapit.drawing.bitmap import image
 from wrapit.drawing.bitmap.image import load_grey
 from wrapit.errors import DrawingError
 
@@ -56,11 +56,11 @@ MODES = (
 
 @pytest.mark.parametrize("mode", MODES)
 def test_every_mode_takes_little_memory_beside_the_decoded_picture(mode, monkeypatch):
-    monkeypatch.setattr(grey, "_BAND_PIXELS", 50_000)
+    monkeypatch.setattr(image, "_BAND_PIXELS", 50_000)
     picture = in_mode(ink((900, 1200)), mode)
     tracemalloc.start()
     try:
-        result = grey.grey_of(picture)
+        result = image.grey_of(picture)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
@@ -73,16 +73,16 @@ def test_every_mode_takes_little_memory_beside_the_decoded_picture(mode, monkeyp
 def test_bands_do_not_show_in_the_result(mode, monkeypatch):
     noise = np.random.default_rng(5).integers(0, 90, SHAPE)
     picture = in_mode(Image.fromarray(np.clip(np.asarray(ink()) - noise, 0, 255).astype(np.uint8)), mode)
-    whole = grey.grey_of(picture)
+    whole = image.grey_of(picture)
     for pixels in (500, 1700):
-        monkeypatch.setattr(grey, "_BAND_PIXELS", pixels)
-        assert np.array_equal(grey.grey_of(picture), whole)
+        monkeypatch.setattr(image, "_BAND_PIXELS", pixels)
+        assert np.array_equal(image.grey_of(picture), whole)
 
 
 def test_coloured_ink_is_read_from_the_channel_that_shows_it_best():
     level = np.asarray(ink())
     rgb = np.stack([np.full_like(level, 250), np.full_like(level, 240), level], axis=2)
-    assert np.array_equal(grey.grey_of(Image.fromarray(rgb)), level)
+    assert np.array_equal(image.grey_of(Image.fromarray(rgb)), level)
 
 
 def test_an_animation_shows_its_first_frame(tmp_path):

@@ -28,7 +28,7 @@ def test_coincident_strokes_are_those_of_comparing_all_pairs(seed):
             Curve(shifted, curve.closed) if rng.integers(2) else Curve(shifted[:2, ::-1][::-1], False)
         )
     found = without_coincident(curves, width)
-    with mock.patch.object(Parallels, "beside", lambda self, _: self._courses):
+    with mock.patch.object(Parallels, "beside", lambda self, _: self._polylines):
         plain = without_coincident(curves, width)
     assert [kept.closed for kept in found[0]] == [kept.closed for kept in plain[0]]
     assert all(np.array_equal(a.cubics, b.cubics) for a, b in zip(found[0], plain[0], strict=True))

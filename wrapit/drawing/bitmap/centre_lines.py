@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths, unless the name says otherwise.
@@ -25,7 +25,7 @@ _DRIFT_REACH = 3.5
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A centred strand: points (n, 2) in pixels, stroke width at each, and where it stands alone.
+    """The centre line of a strand: points (n, 2) in pixels, stroke width at each, and where it stands alone.
 
     `clean` is false where another stroke, or an end, disturbs the width; there the centre is unknown.
     """
@@ -52,24 +52,25 @@ class Line:
         return Line(points, self.width[order], self.clean[order], lengths(points))
 
 
-def renewed(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
-    """The lines of a network that has changed: those of strands that are new are centred now."""
-    fresh = [strand for strand in net.strands if strand not in lines]
-    kept = {strand: line for strand, line in lines.items() if strand in net.strands}
-    return kept | centre_lines(net, ink, width_px, fresh)
+def renewed(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
+    """The lines of a graph that has changed: those of strands that are new are found now."""
+    fresh = [strand for strand in graph.strands if strand not in lines]
+    kept = {strand: line for strand, line in lines.items() if strand in graph.strands}
+    return kept | centre_lines(graph, ink, width_px, fresh)
 
 
 def centre_lines(
-    net: Network, ink: Ink, width_px: float, strands: list[int] | None = None
+    graph: StrandGraph, ink: Ink, width_px: float, strands: list[int] | None = None
 ) -> dict[int, Line]:
-    """The centred line of each strand, walking from its start; closed loops lose nothing at the seam."""
-    strands = list(net.strands) if strands is None else strands
+    """The centre line of each strand, walking from its start; closed loops lose nothing at the seam."""
+    strands = list(graph.strands) if strands is None else strands
     if not strands:
         return {}
     step = max(1.0, width_px / 8)
-    paths = [_resampled(net.path(strand), step) for strand in strands]
+    paths = [_resampled(graph.path(strand), step) for strand in strands]
     loops = [
-        net.strands[s].start == net.strands[s].end and net.degree(net.strands[s].start) == 2 for s in strands
+        graph.strands[s].start == graph.strands[s].end and graph.degree(graph.strands[s].start) == 2
+        for s in strands
     ]
     sigma = max(_SMOOTHING * width_px, 1.0) / step
     # The first pass only has to come near enough for the second.

@@ -6,7 +6,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.cleanup import components
 from wrapit.drawing.bitmap.image import GreyImage, count_levels
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 
 # Shares of the picture's rim, of its size, of the picture, and of the paper.
@@ -58,26 +58,26 @@ def without_table(grey: GreyImage) -> GreyImage | None:
     return np.where(full, np.uint8(level), grey)
 
 
-def drop_frames(net: Network, width_px: float) -> None:
+def drop_frames(graph: StrandGraph, width_px: float) -> None:
     """Drops rectangles that surround all other pieces without touching them, and says so."""
-    while _drop_frame(net, width_px):
+    while _drop_frame(graph, width_px):
         pass
 
 
-def _drop_frame(net: Network, width_px: float) -> bool:
-    pieces = components(net)
+def _drop_frame(graph: StrandGraph, width_px: float) -> bool:
+    pieces = components(graph)
     if len(pieces) < 2:
         return False
-    chains = [np.concatenate([net.path(strand) for strand in strands]) for strands in pieces]
+    chains = [np.concatenate([graph.path(strand) for strand in strands]) for strands in pieces]
     boxes = [(chain.min(axis=0), chain.max(axis=0)) for chain in chains]
-    lengths = [sum(net.length(strand) for strand in strands) for strands in pieces]
+    lengths = [sum(graph.length(strand) for strand in strands) for strands in pieces]
     for k, (low, high) in enumerate(boxes):
         others = [box for index, box in enumerate(boxes) if index != k]
         around = all((inner > low).all() and (outer < high).all() for inner, outer in others)
         enough = sum(lengths) - lengths[k] > _LEAST_INSIDE * lengths[k]
         if around and enough and _is_rectangle(chains[k], low, high, width_px):
-            net.note("frame", (low + high) / 2, lengths[k], "a rectangle around the drawing")
-            net.tell(
+            graph.note("frame", (low + high) / 2, lengths[k], "a rectangle around the drawing")
+            graph.tell(
                 "warning",
                 "frame",
                 low,
@@ -85,8 +85,8 @@ def _drop_frame(net: Network, width_px: float) -> bool:
                 "connect the drawing to it if it belongs to the piece",
             )
             for strand in pieces[k]:
-                net.drop_strand(strand)
-            net.drop_lonely()
+                graph.drop_strand(strand)
+            graph.drop_lonely()
             return True
     return False
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.cleanup import components
 from wrapit.drawing.bitmap.ink import Ink, separability
 from wrapit.drawing.bitmap.skeleton import Skeleton
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.errors import DrawingError
 
 # Limits between line drawings and the rest, measured on both; a drawing stays well clear of each.
@@ -41,12 +41,12 @@ def refuse_crowd(ink: Ink, skeleton: Skeleton, where: str) -> None:
         raise _no_line_drawing(ink, where)
 
 
-def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str) -> None:
+def refuse_other_pictures(ink: Ink, skeleton: Skeleton, graph: StrandGraph, where: str) -> None:
     """Raises DrawingError for photos, noise, filled shapes, dots and pages of text."""
     low, middle, high, ninety = np.percentile(skeleton.distance, [25, 50, 75, 90])
     uneven = (high - low) / middle
     length = 1.1 * len(skeleton.pixels)
-    branches = sum(net.degree(node) >= 3 for node in net.nodes) * skeleton.width_px / length
+    branches = sum(graph.degree(node) >= 3 for node in graph.nodes) * skeleton.width_px / length
     if (
         midtones(ink) > _MIDTONES
         and separability(ink) < _SEPARABLE
@@ -55,7 +55,7 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str
         raise _no_line_drawing(ink, where)
     if skeleton.width_px < 2.2 and branches > 0.12:
         raise _no_line_drawing(ink, where)
-    lengths = sorted((net.length(strand) for strand in net.strands), reverse=True)
+    lengths = sorted((graph.length(strand) for strand in graph.strands), reverse=True)
     longest = lengths[0] if lengths else 0.0
     spread = float(np.ptp(skeleton.pixels, axis=0).max()) + skeleton.width_px
     if skeleton.width_px > _THICK_SHARE * spread and len(lengths) < _PIECES:
@@ -79,10 +79,10 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, net: Network, where: str
         )
 
 
-def refuse_loose_strokes(net: Network, where: str) -> None:
+def refuse_loose_strokes(graph: StrandGraph, where: str) -> None:
     """Raises DrawingError where no piece of the picture is more than a small part of it: text, hatching."""
-    pieces = components(net)
-    lengths = [sum(net.length(strand) for strand in strands) for strands in pieces]
+    pieces = components(graph)
+    lengths = [sum(graph.length(strand) for strand in strands) for strands in pieces]
     if len(pieces) > _LOOSE and lengths[0] < _MAIN_SHARE * sum(lengths):
         raise DrawingError(
             f"the picture falls into {len(pieces)} pieces that don't touch (text or hatching?)",

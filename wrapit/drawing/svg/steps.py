@@ -13,7 +13,7 @@ from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.bezier import evaluate
 
 SAMPLES = 24
-# How many meetings of boxes are looked up at a time, about: 8 MB.
+# How many pairs of boxes are looked up at a time, about: 8 MB.
 _AT_ONCE = 500_000
 _FIRST = 256
 

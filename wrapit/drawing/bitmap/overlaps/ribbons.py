@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.arms import Arm, arm
 from wrapit.drawing.bitmap.centre_lines import Line, edges, lengths, smoothed
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.overlaps.ribbon_axis import LONGEST_FLAT, Course, course_of, even, longest_run
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.overlaps.ribbon_axis import LONGEST_FLAT, RibbonAxis, axis_of, even, longest_run
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, IntArray, unit
 from wrapit.geometry.polynomials import angle
 
@@ -71,28 +71,28 @@ class Ribbon:
 
 
 def find_ribbons(
-    net: Network, lines: dict[int, Line], strands: list[int], ink: Ink, width_px: float
+    graph: StrandGraph, lines: dict[int, Line], strands: list[int], ink: Ink, width_px: float
 ) -> list[Ribbon]:
     """Ribbons that start from some of the strands and in which two strokes can be told apart."""
     found, seen = [], set[int]()
     for strand in strands:
-        if strand in seen or strand not in net.strands:
+        if strand in seen or strand not in graph.strands:
             continue
-        course = course_of(net, lines, strand, width_px)
-        if course is None:
+        way = axis_of(graph, lines, strand, width_px)
+        if way is None:
             continue
-        seen |= set(course.strands)
-        ribbon = _explained(net, lines, course, ink, width_px)
+        seen |= set(way.strands)
+        ribbon = _explained(graph, lines, way, ink, width_px)
         if ribbon is not None:
             found.append(ribbon)
     return found
 
 
 def _explained(
-    net: Network, lines: dict[int, Line], course: Course, ink: Ink, width_px: float
+    graph: StrandGraph, lines: dict[int, Line], way: RibbonAxis, ink: Ink, width_px: float
 ) -> Ribbon | None:
-    heads = _sides(net, lines, course.ends[0], course, course.points, width_px)
-    tails = _sides(net, lines, course.ends[1], course, course.points[::-1], width_px)
+    heads = _sides(graph, lines, way.ends[0], way, way.points, width_px)
+    tails = _sides(graph, lines, way.ends[1], way, way.points[::-1], width_px)
     if heads is None or tails is None:
         return None
     # Seen from the other end, left is right.
@@ -101,12 +101,12 @@ def _explained(
     known_widths = np.concatenate(widths)
     usual = float(np.median(known_widths)) if len(known_widths) >= 6 else width_px
     before, after = (_between(pair_, usual) for pair_ in (heads, tails))
-    axis = even([before[::-1], course.points, after], usual)
+    axis = even([before[::-1], way.points, after], usual)
     along = lengths(axis)
     step = along[-1] / (len(axis) - 1)
     core = slice(
-        int(lengths(np.vstack([before[::-1], course.points[:1]]))[-1] / step),
-        len(axis) - int(lengths(np.vstack([course.points[-1:], after]))[-1] / step),
+        int(lengths(np.vstack([before[::-1], way.points[:1]]))[-1] / step),
+        len(axis) - int(lengths(np.vstack([way.points[-1:], after]))[-1] / step),
     )
     sides = _measured(axis, ink, usual, step)
     if sides is None:
@@ -115,7 +115,7 @@ def _explained(
     found = _swaps(gap / usual, known, step / usual)
     if found is None:
         return None
-    touching = gap.min() > _TOUCH * usual and _may_touch(widths, [*heads, *tails], course)
+    touching = gap.min() > _TOUCH * usual and _may_touch(widths, [*heads, *tails], way)
     if not found[0] and not touching:
         return None
     swaps = [int(np.clip(at, core.start + 1, core.stop - 2)) - core.start for at in found[0]]
@@ -125,7 +125,7 @@ def _explained(
     for swap in swaps:
         clean &= np.abs(np.arange(len(clean)) - swap) * step > _ROUND * usual
     return Ribbon(
-        course.strands, course.inner, course.ends, heads, tails,
+        way.strands, way.inner, way.ends, heads, tails,
         left[core], right[core],
         tuple(swaps), clean, usual, found[1],
     )  # fmt: skip
@@ -164,13 +164,18 @@ def _between(arms: tuple[Arm, Arm], width_px: float) -> FloatArray:
 
 
 def _sides(
-    net: Network, lines: dict[int, Line], node: int, course: Course, walked: FloatArray, width_px: float
+    graph: StrandGraph,
+    lines: dict[int, Line],
+    node: int,
+    way: RibbonAxis,
+    walked: FloatArray,
+    width_px: float,
 ) -> tuple[Arm, Arm] | None:
     """The left and the right one of two other arms at a node, for somebody who comes from there."""
     arms = [
         arm(lines[other], other, end, width_px)
-        for other, end in net.ends_at(node)
-        if other not in course.strands
+        for other, end in graph.ends_at(node)
+        if other not in way.strands
     ]
     if len(arms) != 2:
         return None
@@ -194,13 +199,15 @@ def _widths(lines: dict[int, Line], arms: list[Arm], width_px: float) -> list[Fl
     return widths
 
 
-def _may_touch(widths: list[FloatArray], arms: list[Arm], course: Course) -> bool:
+def _may_touch(widths: list[FloatArray], arms: list[Arm], way: RibbonAxis) -> bool:
     """Whether a ribbon may be two strokes side by side, not one broad stroke between forks of others."""
     if min(map(len, widths)) < 6:
         return False
     each = [float(np.median(width)) for width in widths]
-    ways = [course.points[0] - course.points[-1]] * 2 + [course.points[-1] - course.points[0]] * 2
-    straight = all(angle(arm.at(0.0)[1], way) < _ONWARD_RAD for arm, way in zip(arms, ways, strict=True))
+    ways = [way.points[0] - way.points[-1]] * 2 + [way.points[-1] - way.points[0]] * 2
+    straight = all(
+        angle(arm.at(0.0)[1], onward) < _ONWARD_RAD for arm, onward in zip(arms, ways, strict=True)
+    )
     return max(each) < _ALIKE * min(each) and straight
 
 

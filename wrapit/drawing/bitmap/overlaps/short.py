@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.arms import Arm, Through, arm, through, turn
+from wrapit.drawing.bitmap.arms import Arm, arm
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.pairing import Through, through, turn
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths. Longer stretches are ribbons, whose edges tell more.
@@ -39,11 +40,11 @@ def worth_explaining(line: Line, width_px: float) -> bool:
     return line.length <= _LONGEST * width_px
 
 
-def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
+def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
     """The best explanation of a stretch between two forks by two strokes, or nothing."""
-    s, line = net.strands[strand], lines[strand]
-    heads = _others(net, lines, s.start, strand, width_px)
-    tails = _others(net, lines, s.end, strand, width_px)
+    s, line = graph.strands[strand], lines[strand]
+    heads = _others(graph, lines, s.start, strand, width_px)
+    tails = _others(graph, lines, s.end, strand, width_px)
     if len(heads) != 2 or len(tails) != 2:
         return None
     seen = line.length > _SEEN * width_px
@@ -62,13 +63,13 @@ def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) 
         return None
     cost, turns, curves, pairs, crossed, together = best
     seen = seen and crossed < _MISFIT and crossed < _BETTER * together
-    meetings = _meetings(curves[0], curves[1], width_px)
-    if len(meetings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
+    crossings = _crossings(curves[0], curves[1], width_px)
+    if len(crossings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
         return None
-    return Explanation(strand, cost, pairs, meetings[0])
+    return Explanation(strand, cost, pairs, crossings[0])
 
 
-def _meetings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
+def _crossings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
     """Where two curves cross between their arms."""
     along = [np.linspace(-0.5, 0.5, 61) * (curve.gap + width_px) for curve in (a, b)]
     first, second = (
@@ -90,8 +91,8 @@ def excess(line: Line, width_px: float) -> float:
     return float(width.mean()) / width_px - 1
 
 
-def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
-    return [arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand]
+def _others(graph: StrandGraph, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
+    return [arm(lines[other], other, end, width_px) for other, end in graph.ends_at(node) if other != strand]
 
 
 def _apart(curves: list[Through], line: Line) -> FloatArray:
