@@ -76,9 +76,9 @@ def test_each_link_takes_one_tree_however_many_pieces_wait(monkeypatch):
 
 def test_groups_farther_apart_than_the_longest_link_are_left_out_by_name():
     places, pieces = scattered(30, 2)
-    joined = connect(places, pieces, "join", 60.0)
+    joined = connect(places, pieces, "join", 120.0)
     links = [change for change in joined.changes if change.what == "link"]
     left = [change for change in joined.changes if change.what == "piece"]
-    assert all(link.length_px <= 60 for link in links)
+    assert all(link.length_px <= 120 for link in links)
     assert len(links) + len(left) == 29
     assert 0 < len(left) < 29
