@@ -7,7 +7,7 @@ import scipy.spatial
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse.csgraph import minimum_spanning_tree
-from shapely import LineString
+from shapely import LineString, union_all
 
 from tests.drawing.bitmap.figures import (
     line,
@@ -74,11 +74,21 @@ def test_each_link_takes_one_tree_however_many_pieces_wait(monkeypatch):
     assert len(built) == 59
 
 
-def test_groups_farther_apart_than_the_longest_link_are_left_out_by_name():
-    places, pieces = scattered(30, 2)
-    joined = connect(places, pieces, "join", 120.0)
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.floats(20, 300))
+def test_what_is_nearer_than_the_longest_link_is_joined_and_nothing_else(seed, longest):
+    places, pieces = scattered(20, seed)
+    joined = connect(places, pieces, "join", longest)
     links = [change for change in joined.changes if change.what == "link"]
     left = [change for change in joined.changes if change.what == "piece"]
-    assert all(link.length_px <= 120 for link in links)
-    assert len(links) + len(left) == 29
-    assert 0 < len(left) < 29
+    assert all(link.length_px <= longest for link in links)
+    assert len(links) + len(left) == 19
+    drawn = union_all([LineString([piece.curve.start, piece.curve.end]) for piece in joined.pieces])
+    for change in left:
+        (stroke,) = (
+            LineString([piece.curve.start, piece.curve.end])
+            for piece in pieces
+            if np.allclose((piece.curve.start + piece.curve.end) / 2, change.at_px)
+        )
+        # Strokes are looked at in 33 places each.
+        assert drawn.distance(stroke) > longest - max(piece.curve.length for piece in joined.pieces) / 32
