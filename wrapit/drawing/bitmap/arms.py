@@ -12,13 +12,18 @@ from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polynomials import horner, polynomial
 
-# In stroke widths.
+# Over how much of the stroke (in stroke widths) is an arm's quadratic fitted? On prototypes 2 to 4 were
+# equally good, a straight line left tangents 4.3 degrees off at the 95th percentile.
 _ARM = 3.0
-# On noisy strokes models look farther, as long as they miss the points no more for it.
+# When does it look farther? Where it misses the points by more than 0.006 widths (the noise of a scan), it
+# tries these reaches, as long as it misses no more than 1.1 times as much (and a thousandth of a width).
+# Varied by 30 %, each moves the mean distance of the curves by less than 0.0002 widths.
 _NOISY = 0.006
 _FARTHER = (4.5, 6.5)
 _SAME = 1.1
 _SLACK = 0.001
+# How far behind the first clean point does an arm start? The width is undisturbed there, the centre not yet
+# quite: without the cut, tangents at junctions are 9 degrees off in the median.
 _MARGIN = 0.1
 
 

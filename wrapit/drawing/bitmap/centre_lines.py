@@ -13,12 +13,20 @@ from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths, unless the name says otherwise.
+# Where is the edge of the ink looked for? Not right at the centre, which is ink by the second pass, and not
+# beyond 1.3 widths, where there is another stroke; either moved by 30 % changes the mean distance by 0.0001.
 _INSIDE = 0.25
 _REACH = 1.3
+# How much are the skeleton's stairs smoothed before its normals are taken? Too little (0.25) or too much
+# (0.45) raises the Hausdorff distance from 0.12 to 0.16 widths.
 _SMOOTHING = 0.35
+# When is a point clean? Where the ink is no broader than usual by more than this, or a third of a pixel,
+# which a hard edge is off by chance. 0.063 throws clean points away: Hausdorff distance 0.16 instead of 0.12.
 _CLEAN = 0.09
 _CLEAN_PX = 0.35
-# A pen's pressure may change the width by this share; it is measured within this reach.
+# What is usual along a line? A pen's pressure may change the width by this share; the median within 3.5
+# widths is wide enough to overlook a crossing. A share of 0.12 raises the Hausdorff distance to 0.14, 0.22
+# changes nothing; a reach of 4.6 raises it to 0.15.
 _DRIFT = 0.17
 _DRIFT_REACH = 3.5
 

@@ -14,15 +14,25 @@ from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle, polynomial
 
 # In stroke widths.
+# Which points tell the two sides of a corner? Those from 0.8 on, as nearer ones are rounded by the smoothing
+# (1.04 loses short sides: Hausdorff distance 0.17 instead of 0.12 widths), over 1.8 at most, so that the side
+# is a quadratic, and no farther than 4.5 from the corner; a side shorter than 0.45 tells no direction. The
+# last two, varied by 30 %, change nothing.
 _NEAR = 0.8
-_FAR = 4.5
 _SIDE = 1.8
-_PROBE = 1.7
+_FAR = 4.5
 _LEAST = 0.45
+# Between which points is turning looked for? From 0.8 to 1.7 on either side: the chord over a width.
+_PROBE = 1.7
+# What is the tip of an acute corner? A stem of up to 5 widths (there the inner edges of a corner
+# of 11 degrees meet) that ends within 0.8 of where the two sides meet. 30 % make no difference.
 _TIP = 5.0
 _AT_TIP = 0.8
-# A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one.
+# A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one. With 0.49
+# true corners become bends: Hausdorff distance 0.28.
 _ROUND = 0.7
+# What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36 change
+# the Béziers by two in 242.
 _SEEN_RAD = math.radians(28)
 
 

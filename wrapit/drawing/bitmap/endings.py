@@ -14,7 +14,14 @@ from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle, horner, nearest_along
 
+# When does a single arm leave along the stroke that goes through? Branches of curls and leaves are drawn
+# tangentially, and the arm alone doesn't tell 10 degrees from none; 14 or 26 make no difference.
 _SNAP_RAD = math.radians(20)
+# How much do a pair's curve, a single arm and the skeleton's own place say about where a junction is? Single
+# arms are extrapolated, a pair is interpolated; the place only keeps the sum regular, and hardly that where
+# two curves fix the point already, even at an acute angle.
+_PAIR_WEIGHT, _SINGLE_WEIGHT = 1.0, 0.3
+_PRIOR_OF_ONE, _PRIOR_OF_TWO = 0.01, 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +46,15 @@ def place(
     point: FloatArray = around
     feet = [0.0] * len(curves)
     # Two curves fix the point, even where they cross at an acute angle.
-    prior = 0.01 if len(curves) < 2 else 1e-4
+    prior = _PRIOR_OF_ONE if len(curves) < 2 else _PRIOR_OF_TWO
     for _ in range(3):
         pulls = []
         for k, curve in enumerate(curves):
             feet[k] = curve.foot(point, feet[k])
-            pulls.append((1.0, *horner(curve.terms, feet[k])))
+            pulls.append((_PAIR_WEIGHT, *horner(curve.terms, feet[k])))
         for k in single:
             along = nearest_along(arms[k].terms, point, 0.0, -4 * arms[k].width_px, 0.0)
-            pulls.append((0.3, *horner(arms[k].terms, along)))
+            pulls.append((_SINGLE_WEIGHT, *horner(arms[k].terms, along)))
         point = _pulled(point, prior, pulls)
     endings: dict[int, Ending] = {}
     for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):

@@ -9,15 +9,20 @@ from wrapit.drawing.bitmap.image import GreyImage, count_levels
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 
-# Shares of the picture's rim, of its size, of the picture, and of the paper.
+# What is a table under the paper? Dark ground that takes this share of the picture's rim and stays when as
+# much of the picture's size as `_BROADER` is taken off all around, which no stroke does.
 _DARK_RIM = 0.05
 _BROADER = 0.015
+# What is the paper on it? At least this share of the picture, and bright to this share: the ground of a light
+# drawing surrounds dark fields.
 _PAPER = 0.2
 _BRIGHT = 0.7
-# Of the picture's contrast.
+# What is the paper's edge, not a shadow's? A step by this share of the picture's contrast.
 _EDGE = 0.5
+# Every how many pixels is looked? A table is hundreds of pixels broad.
 _COARSE = 4
-# A photographed frame is a little askew.
+# What is a frame? A rectangle that may be askew as a photo is (1 degree is 0.017 of its side), with this
+# share of its points on the sides of its box, around at least this share of its own length.
 _ASKEW = 0.02
 _ON_SIDES = 0.98
 _LEAST_INSIDE = 0.05

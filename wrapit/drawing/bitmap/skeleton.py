@@ -12,6 +12,12 @@ from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, IntArray
 
 BoolImage = NDArray[np.bool_]
+# How much shorter is the distance from a stroke's centre to the nearest paper pixel than half its width,
+# twice? Measured from pixel centres, it is half a pixel too long.
+_PIXEL_EXCESS = 0.5
+# Of the rim's pixels, which are looked at to see whether thinning ate an end away? Every eighth: where an
+# end is eaten away, all around it is bare.
+_RIM_STEP = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +54,7 @@ def thin(mask: BoolImage) -> Skeleton:
     rim = _rim(mask)
     skeletonize: Any = morphology.skeletonize
     skeleton = _measured(skeletonize(mask), rim)
-    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::8])
+    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::_RIM_STEP])
     if reach.max() > max(skeleton.width_px + 1, 1.2 * skeleton.distance.max()):
         skeleton = _measured(skeletonize(mask, method="lee") > 0, rim)
     return skeleton
@@ -71,7 +77,7 @@ def _measured(thinned: BoolImage, rim: FloatArray) -> Skeleton:
 
     pixels, pairs = _neighbours(thinned)
     distance, _ = cKDTree(rim, balanced_tree=False, compact_nodes=False).query(pixels)
-    return Skeleton(pixels, pairs, distance, float(2 * np.median(distance) - 0.5))
+    return Skeleton(pixels, pairs, distance, float(2 * np.median(distance) - _PIXEL_EXCESS))
 
 
 def _neighbours(thinned: BoolImage) -> tuple[FloatArray, IntArray]:

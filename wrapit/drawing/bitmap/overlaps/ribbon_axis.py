@@ -12,12 +12,16 @@ from wrapit.drawing.bitmap.overlaps.short import excess
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, IntArray
 
-# In stroke widths.
+# What may be a ribbon? In stroke widths: a stretch of up to 60, which only bounds the work, whose ink is
+# broader than one stroke by 0.15 in the mean. 30 % make no difference to 48 generated overlaps.
 _LONGEST = 60.0
 _EXCESS = 0.15
+# A stretch as broad as one stroke (by 8 %) that is longer than this is one that both share. Breadths of up to
+# 1.4 as plain take two of 12 tangles for such.
 _PLAIN = 1.08
-# A stretch as broad as one stroke that is longer than this is one that both share.
 LONGEST_FLAT = 4.0
+# What is a hole in a ribbon, not its end? One whose sides are this short, so that nowhere a stroke stands
+# alone.
 _OPENING = 3.0
 
 

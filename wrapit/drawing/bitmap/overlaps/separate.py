@@ -15,9 +15,14 @@ from wrapit.drawing.bitmap.overlaps.ribbons import Ribbon, find_ribbons
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 
+# How often is looked again? Each round separates ribbons that don't touch each other; 2 or 4 rounds give the
+# same on 48 generated overlaps.
 _ROUNDS = 3
-# In stroke widths: shorter ribbons are better told by how their strokes bend.
+# In stroke widths: shorter ribbons are better told by how their strokes bend. From 3.25 on, one of 12 tangles
+# more goes wrong.
 _LONG = 2.5
+# Among the rest, what is still a ribbon, and which strokes only touch in it for sure? 30 % make no
+# difference.
 _SHORT = 1.2
 _WELL_APART = 0.6
 

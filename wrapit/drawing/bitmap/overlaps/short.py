@@ -16,11 +16,16 @@ from wrapit.drawing.bitmap.pairing import Through, through, turn
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
-# In stroke widths. Longer stretches are ribbons, whose edges tell more.
+# None of these, varied by 30 %, changes any of 48 generated overlaps or 8 pictures of the corpus: most
+# crossings are far from each limit. In stroke widths: what stretch is short, and long enough to show its
+# width? Longer ones are ribbons, whose edges tell more.
 _LONGEST = 2.5
 _SEEN = 0.8
+# When does the width show a crossing? Where it misses that of two crossing strokes by less than this (in
+# stroke widths), and by less than 0.6 times what it misses that of one stroke.
 _MISFIT = 0.28
 _BETTER = 0.6
+# How much may each stroke turn in the stretch? More where the width shows that they cross.
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
 
