@@ -31,8 +31,8 @@ _AT_TIP = 0.8
 # A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one. With 0.49
 # true corners become bends: Hausdorff distance 0.28.
 _ROUND = 0.7
-# What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36 change
-# the Béziers by two in 242.
+# What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36
+# change the Béziers by two in 242.
 _SEEN_RAD = math.radians(28)
 
 
