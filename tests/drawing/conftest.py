@@ -10,9 +10,7 @@ import pytest
 from PIL import Image
 
 from tests.drawing.bitmap.crosses import CROSS, SHAPE
-from tests.drawing.bitmap.figures import (
-    SIZE_PX,
-)
+from tests.drawing.bitmap.figures import SIZE_PX
 from tests.drawing.generated import Points, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing

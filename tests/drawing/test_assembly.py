@@ -6,11 +6,7 @@ import itertools
 
 import pytest
 
-from tests.drawing.bitmap.figures import (
-    ACROSS,
-    line,
-    turned,
-)
+from tests.drawing.bitmap.figures import ACROSS, line, turned
 
 
 def test_size_is_the_longest_side_and_the_lower_left_is_zero(traced):

@@ -9,9 +9,7 @@ from hypothesis import strategies as st
 from scipy.sparse.csgraph import minimum_spanning_tree
 from shapely import LineString, union_all
 
-from tests.drawing.bitmap.figures import (
-    line,
-)
+from tests.drawing.bitmap.figures import line
 from tests.drawing.generated import degrees
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import Piece

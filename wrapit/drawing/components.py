@@ -14,6 +14,9 @@ from wrapit.geometry import BezierChain, FloatArray, IntArray, straight
 from wrapit.geometry.bezier import evaluate, split
 from wrapit.geometry.disjoint_sets import Sets
 
+# How far apart may pieces be that are joined on request? In sizes of the drawing: a link across more of it
+# would be a part of the drawing that nobody drew.
+LONGEST_LINK = 0.25
 # How many pieces that are left out are named each by its place; a page of text has hundreds.
 _NAMED = 8
 # Where a cubic is looked at for its nearest place to another: a link may start a 64th of it beside that.

@@ -8,16 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import (
-    CENTRE,
-    SIZE_PX,
-    TURNS,
-    WIDTHS,
-    few,
-    junction_near,
-    line,
-    turned,
-)
+from tests.drawing.bitmap.figures import CENTRE, SIZE_PX, TURNS, WIDTHS, few, junction_near, line, turned
 from tests.drawing.generated import degrees
 
 

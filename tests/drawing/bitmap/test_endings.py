@@ -8,14 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import (
-    ACROSS,
-    SHIFTS,
-    TURNS,
-    WIDTHS,
-    few,
-    turned,
-)
+from tests.drawing.bitmap.figures import ACROSS, SHIFTS, TURNS, WIDTHS, few, turned
 
 
 @few

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from tests.drawing.bitmap.figures import (
-    ACROSS,
-    CENTRE,
-    line,
-)
+from tests.drawing.bitmap.figures import ACROSS, CENTRE, line
 from tests.drawing.generated import degrees
 from wrapit.config import TracingConfig
 

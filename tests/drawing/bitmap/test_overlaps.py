@@ -10,16 +10,7 @@ from hypothesis import strategies as st
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 
-from tests.drawing.bitmap.figures import (
-    ACROSS,
-    CENTRE,
-    SIZE_PX,
-    TURNS,
-    arc,
-    few,
-    junction_near,
-    turned,
-)
+from tests.drawing.bitmap.figures import ACROSS, CENTRE, SIZE_PX, TURNS, arc, few, junction_near, turned
 from tests.drawing.generated import degrees, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.stage import trace

@@ -10,14 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import (
-    ACROSS,
-    CENTRE,
-    WIDTHS,
-    few,
-    in_pixels,
-    turned,
-)
+from tests.drawing.bitmap.figures import ACROSS, CENTRE, WIDTHS, few, in_pixels, turned
 from tests.drawing.generated import degrees
 from wrapit.drawing.json_file import drawing_json
 

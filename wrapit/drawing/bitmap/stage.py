@@ -29,7 +29,7 @@ from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refus
 from wrapit.drawing.bitmap.skeleton import strand_graph_of, thin_within
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.drawing.changes import Change, Notice
-from wrapit.drawing.components import Connected, connect
+from wrapit.drawing.components import LONGEST_LINK, Connected, connect
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, unit
@@ -121,7 +121,7 @@ def _traced(
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
     drop_short(graph, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
     pieces = _fitted(graph, lines, ink, width_px, tracing.tolerance)
-    connected = connect(graph.nodes, pieces, tracing.components, 0.25 * size_px)
+    connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
     return _drawing(graph, connected, picture, size_mm)

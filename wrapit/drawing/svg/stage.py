@@ -9,7 +9,7 @@ import numpy as np
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import assemble, placement
 from wrapit.drawing.changes import Change
-from wrapit.drawing.components import connect
+from wrapit.drawing.components import LONGEST_LINK, connect
 from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.svg.duplicates import without_coincident
@@ -55,7 +55,7 @@ def trace_svg(
         raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
     changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]
     changes += [Change("double", _pair(at), length, "drawn twice, taken once") for at, length in doubles]
-    connected = connect(graph.places, graph.pieces, tracing.components, 0.25 * size)
+    connected = connect(graph.places, graph.pieces, tracing.components, LONGEST_LINK * size)
     where = placement(
         [piece.curve for piece in connected.pieces], size_mm, flip=True, scale=strokes.mm_per_px
     )
