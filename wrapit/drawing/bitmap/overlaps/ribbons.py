@@ -27,8 +27,8 @@ from wrapit.geometry.polynomials import angle
 # lenses, three crossings in a row, shared and touching stretches); where nothing is said, none came out
 # differently.
 # How are the edges measured? Up to 1.7 from the axis: where centres are `_WIDEST` apart they are 1.3 away
-# (with a reach of 1.2 neither crossings below 15 degrees nor touching strokes are found), over paper of up to 0.35,
-# the pinholes between the strokes. The axis is smoothed over 0.5, the edges' slope over 0.4.
+# (with a reach of 1.2 neither crossings below 15 degrees nor touching strokes are found), over paper of up to
+# 0.35, the pinholes between the strokes. The axis is smoothed over 0.5, the edges' slope over 0.4.
 _REACH = 1.7
 _BRIDGED = 0.35
 _AXIS = 0.5
