@@ -16,8 +16,8 @@ from wrapit.errors import DrawingError
 # (photo), .69 (mixed widths), 2.2 (filled); ink share .08 against .93 (inverted), .48 (photo). Varied by 30 %
 # each on the pictures and pages of the tests, only two matter: with a larger `_THICK_SHARE` a table around a
 # page is no longer left out, with a smaller `_FAT_WIDTH` a drawing in a thinner frame is taken for filled.
-# What is a photo or noise? More midtones and less separable than these, with more branches per stroke width of
-# skeleton, or more uneven in width.
+# What is a photo or noise? More midtones and less separable than these, with more branches per stroke width
+# of skeleton, or more uneven in width.
 _MIDTONES = 0.12
 _SEPARABLE = 0.88
 _BRANCHES = 0.10
