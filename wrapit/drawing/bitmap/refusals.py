@@ -22,7 +22,7 @@ _MIDTONES = 0.12
 _SEPARABLE = 0.88
 _BRANCHES = 0.10
 _UNEVEN = 0.35
-# In coarse pictures, whose strokes are thinner than this (pixels), branches alone tell noise; and many
+# (Not varied: the next three.) In coarse pictures, whose strokes are thinner than this (pixels), branches alone tell noise; and many
 # branches do so before a graph is made of them.
 _COARSE_PX = 2.2
 _COARSE_BRANCHES = 0.12
@@ -44,7 +44,7 @@ _MAIN_SHARE = 0.2
 _STRIPS = 8
 _RULED_SHARE = 0.6
 _RULED_LINES = 5
-# Along a skeleton, steps to the side and diagonally mixed, a pixel is this long.
+# Along a skeleton, steps to the side and diagonally mixed, a pixel is this long (not varied).
 _PIXEL_LENGTH = 1.1
 
 
