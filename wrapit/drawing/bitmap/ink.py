@@ -21,8 +21,8 @@ _BLOCK_PX = 16
 # was measured on a page too faint to trace, 250 on good ones.
 _LEAST_RANGE = 32
 _LEAST_CONTRAST = 40
-# When are there two kinds of ink, as of a pen and a ruling? This many levels apart, each at least this share of
-# it. The pictures on which 30 % change nothing have one kind; the ruled pages of the tests need the other.
+# When are there two kinds of ink, as of a pen and a ruling? This many levels apart, each at least this share
+# of it. The pictures on which 30 % change nothing have one kind; the ruled pages of the tests have two.
 _TWO_INKS = 50
 _LEAST_SHARE = 0.08
 

@@ -22,8 +22,8 @@ _MIDTONES = 0.12
 _SEPARABLE = 0.88
 _BRANCHES = 0.10
 _UNEVEN = 0.35
-# (Not varied: the next three.) In coarse pictures, whose strokes are thinner than this (pixels), branches alone tell noise; and many
-# branches do so before a graph is made of them.
+# What is noise in coarse pictures, whose strokes are thinner than this (pixels)? Branches alone tell; and
+# very many branches do so before a graph is made of them. These three were not varied.
 _COARSE_PX = 2.2
 _COARSE_BRANCHES = 0.12
 _CROWD = 5000
