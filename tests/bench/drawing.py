@@ -161,12 +161,12 @@ def plain_beziers(path: Path) -> int:
     from scipy.ndimage import gaussian_filter1d
 
     from wrapit.drawing.bitmap.picture import read_picture
-    from wrapit.drawing.bitmap.skeleton import network
+    from wrapit.drawing.bitmap.skeleton import strand_graph_of
     from wrapit.geometry import unit
     from wrapit.geometry.fitting.fit import Stroke, fit_all
 
     skeleton = read_picture(path, TracingConfig()).skeleton
-    net = network(skeleton.pixels, skeleton.pairs)
+    net = strand_graph_of(skeleton.pixels, skeleton.pairs)
     strokes = []
     for strand in net.strands:
         points = net.path(strand)

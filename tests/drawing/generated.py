@@ -9,6 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from wrapit.drawing.model import Drawing
+
 Points = NDArray[np.float64]
 
 
@@ -81,3 +83,8 @@ def smallest_radius(curve: Points) -> float:
     speed = np.linalg.norm(d, axis=1)
     curvature = np.abs(d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / speed**3
     return float(1 / curvature[2:-2].max())
+
+
+def degrees(drawing: Drawing) -> list[int]:
+    """How many segment ends meet at each junction, ascending."""
+    return sorted(len(ends) for ends in drawing.half_edges())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -9,11 +10,17 @@ import numpy as np
 
 from wrapit.drawing.assembly import Piece
 from wrapit.drawing.changes import Change, Notice
-from wrapit.geometry import BezierChain, FloatArray, straight
-from wrapit.geometry.bezier import split
+from wrapit.geometry import BezierChain, FloatArray, IntArray, straight
+from wrapit.geometry.bezier import evaluate, split
 from wrapit.geometry.disjoint_sets import Sets
 
+# How far apart may pieces be that are joined on request? In sizes of the drawing: a link across more of it
+# would be a part of the drawing that nobody drew.
+LONGEST_LINK = 0.25
+# How many pieces that are left out are named each by its place; a page of text has hundreds.
 _NAMED = 8
+# Where a cubic is looked at for its nearest place to another: a link may start a 64th of it beside that.
+_SHARES = np.linspace(0, 1, 33)
 
 
 @dataclass(eq=False)
@@ -26,23 +33,45 @@ class Connected:
     notices: list[Notice] = field(default_factory=list)
 
 
+@dataclass(frozen=True)
+class Gap:
+    """The shortest way between two groups: its length, and on either the piece's index and parameter."""
+
+    length: float
+    on_one: tuple[int, float]
+    on_other: tuple[int, float]
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Points (n, 2) along pieces, and for each the piece's index and its parameter there."""
+
+    points: FloatArray
+    piece: IntArray
+    at: FloatArray
+
+
 def connect(
     places: dict[int, FloatArray], pieces: list[Piece], how: Literal["largest", "join"], longest: float
 ) -> Connected:
     """One connected drawing: others are joined where `how` says so and the link is at most `longest`.
 
-    What stays apart is left out, with a warning that names the place.
+    What stays apart is left out, with a warning that names the place. The nearest group is always the next
+    to be joined (Prim's method for the shortest tree), so the work grows with the square of the groups.
     """
     groups = _groups(pieces)
     if len(groups) == 1:
         return Connected(places, pieces)
     result = Connected(dict(places), groups[0])
     rest = groups[1:]
-    while rest and how == "join":
-        gaps = [_nearest(result.pieces, group) for group in rest]
-        best = min(range(len(rest)), key=lambda k: (gaps[k][0], k))
-        if gaps[best][0] > longest:
+    known: dict[Piece, _Samples] = {}
+    apart = [_samples(group, known) for group in rest] if how == "join" else []
+    while apart:
+        gaps = _gaps(result.pieces, apart, known)
+        best = min(range(len(rest)), key=lambda k: (gaps[k].length, k))
+        if gaps[best].length > longest:
             break
+        del apart[best]
         _link(result, rest.pop(best), gaps[best])
     for k, group in enumerate(rest):
         _leave_out(result, group, named=k < _NAMED)
@@ -84,39 +113,51 @@ def _groups(pieces: list[Piece]) -> list[list[Piece]]:
     return sorted(groups.values(), key=lambda group: -sum(piece.curve.length for piece in group))
 
 
-def _nearest(one: list[Piece], other: list[Piece]) -> tuple[float, int, float, int, float]:
-    """Shortest gap between two groups: its length, and piece and parameter on either side."""
+def _gaps(one: list[Piece], others: list[_Samples], known: dict[Piece, _Samples]) -> list[Gap]:
+    """Shortest gap from a group to each of several others: one tree for them all."""
     from scipy.spatial import cKDTree
 
-    points_a, where_a = _samples(one)
-    points_b, where_b = _samples(other)
-    gaps, index = cKDTree(points_a).query(points_b)
-    k = int(np.argmin(np.round(gaps, 9)))
-    piece_a, at_a = where_a[int(index[k])]
-    piece_b, at_b = where_b[k]
-    return float(gaps[k]), piece_a, at_a, piece_b, at_b
+    own = _samples(one, known)
+    far, index = cKDTree(own.points).query(np.concatenate([other.points for other in others]))
+    bounds = np.cumsum([0, *(len(other.points) for other in others)]).tolist()
+    gaps = []
+    for other, (low, high) in zip(others, itertools.pairwise(bounds), strict=True):
+        k = int(np.argmin(np.round(far[low:high], 9)))
+        at = int(index[low + k])
+        gaps.append(
+            Gap(
+                float(far[low + k]),
+                (int(own.piece[at]), float(own.at[at])),
+                (int(other.piece[k]), float(other.at[k])),
+            )
+        )
+    return gaps
 
 
-def _samples(group: list[Piece]) -> tuple[FloatArray, list[tuple[int, float]]]:
-    from wrapit.geometry.bezier import evaluate
+def _samples(group: list[Piece], known: dict[Piece, _Samples]) -> _Samples:
+    """Points along the pieces of a group; those of pieces that are `known` are not worked out again."""
+    for piece in group:
+        if piece not in known:
+            count = len(piece.curve)
+            points = evaluate(piece.curve.points, _SHARES).reshape(-1, 2)
+            at = (np.arange(count)[:, None] + _SHARES).ravel()
+            known[piece] = _Samples(points, np.zeros(len(at), dtype=np.int64), at)
+    each = [known[piece] for piece in group]
+    return _Samples(
+        np.concatenate([own.points for own in each]),
+        np.repeat(np.arange(len(each)), [len(own.at) for own in each]),
+        np.concatenate([own.at for own in each]),
+    )
 
-    t = np.linspace(0, 1, 33)
-    points, where = [], []
-    for index, piece in enumerate(group):
-        points.append(evaluate(piece.curve.points, t).reshape(-1, 2))
-        where += [(index, k + float(u)) for k in range(len(piece.curve)) for u in t]
-    return np.concatenate(points), where
 
-
-def _link(result: Connected, group: list[Piece], gap: tuple[float, int, float, int, float]) -> None:
-    length, piece_a, at_a, piece_b, at_b = gap
-    first, result.pieces = _opened(result, result.pieces, piece_a, at_a)
-    second, group = _opened(result, group, piece_b, at_b)
+def _link(result: Connected, group: list[Piece], gap: Gap) -> None:
+    first, result.pieces = _opened(result, result.pieces, *gap.on_one)
+    second, group = _opened(result, group, *gap.on_other)
     a, b = result.places[first], result.places[second]
     result.pieces = [*result.pieces, *group, Piece(first, second, straight(a, b))]
     middle = (a + b) / 2
     at = (float(middle[0]), float(middle[1]))
-    result.changes.append(Change("link", at, length, "added to connect two pieces of the drawing"))
+    result.changes.append(Change("link", at, gap.length, "added to connect two pieces of the drawing"))
     result.notices.append(
         Notice("note", "joined", at, "two pieces of the drawing were joined by a straight link")
     )

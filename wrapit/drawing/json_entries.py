@@ -12,6 +12,9 @@ from wrapit.errors import DrawingError
 LARGEST_MM = 1e6
 # Under this, a length (mm) is nothing: files hold millionths.
 _SMALLEST_MM = 1e-6
+# What is too much to be a drawing? A file of 50 MB holds all the Béziers that are allowed twice over, a float
+# in full has at most 309 digits before its point, and no reason takes ten thousand characters. Nothing hangs
+# on the exact numbers: they bound memory and time, and keep messages readable.
 _LARGEST_BYTES = 50_000_000
 _LONGEST_NUMBER = 400
 _LONGEST_TEXT = 10_000

@@ -14,9 +14,13 @@ from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError
 from wrapit.units import awg_diameter_mm
 
+# At what size is a bitmap looked at first? At any: nothing is dropped as too short, and lengths are taken as
+# shares.
 _TRIAL_MM = 50.0
+# What sizes are proposed? The smallest that leaves room, but none too small for fingers to bend.
 _LEAST_MM = 40.0
 _SIZES_MM = (40, 45, 50, 55, 60, 70, 80, 90, 100, 120)
+# And what wires? From fine to bold, as `_gauge` chooses.
 _GAUGES = (20, 18, 16)
 # Strokes of drawings are this much of their size when the wire is meant; bolder ones are for looks.
 _BOLDEST = 0.03

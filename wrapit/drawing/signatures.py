@@ -5,6 +5,7 @@ from __future__ import annotations
 # The longest beginning that `kind_of` looks at.
 HEAD_BYTES = 512
 
+# As each format's own specification has them.
 _BEGINNINGS: tuple[tuple[bytes, str], ...] = (
     (b"\x89PNG\r\n\x1a\n", "PNG"),
     (b"\xff\xd8\xff", "JPEG"),

@@ -9,7 +9,9 @@ from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
 from wrapit.errors import ConfigError, DrawingError, Finding
 
+# What Pillow reads without starting another program.
 BITMAPS = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".gif")
+# How much of a path is shown where the path itself is at fault? Enough to know it by, on one screen.
 _LONGEST_PLACE = 200
 
 

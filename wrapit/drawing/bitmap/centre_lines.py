@@ -9,24 +9,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polyline import at_lengths, lengths
 
 # In stroke widths, unless the name says otherwise.
+# Where is the edge of the ink looked for? Not right at the centre, which is ink by the second pass, and not
+# beyond 1.3 widths, where there is another stroke; either moved by 30 % changes the mean distance by 0.0001.
 _INSIDE = 0.25
 _REACH = 1.3
+# How much are the skeleton's stairs smoothed before its normals are taken? Too little (0.25) or too much
+# (0.45) raises the Hausdorff distance from 0.12 to 0.16 widths.
 _SMOOTHING = 0.35
+# When is a point clean? Where the ink is no broader than usual by more than this, or a third of a pixel,
+# which a hard edge is off by chance. 0.063 throws clean points away: Hausdorff distance 0.16 instead of 0.12.
 _CLEAN = 0.09
 _CLEAN_PX = 0.35
-# A pen's pressure may change the width by this share; it is measured within this reach.
+# What is usual along a line? A pen's pressure may change the width by this share; the median within 3.5
+# widths is wide enough to overlook a crossing. A share of 0.12 raises the Hausdorff distance to 0.14, 0.22
+# changes nothing; a reach of 4.6 raises it to 0.15.
 _DRIFT = 0.17
 _DRIFT_REACH = 3.5
 
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A centred strand: points (n, 2) in pixels, stroke width at each, and where it stands alone.
+    """The centre line of a strand: points (n, 2) in pixels, stroke width at each, and where it stands alone.
 
     `clean` is false where another stroke, or an end, disturbs the width; there the centre is unknown.
     """
@@ -53,24 +61,25 @@ class Line:
         return Line(points, self.width[order], self.clean[order], lengths(points))
 
 
-def renewed(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
-    """The lines of a network that has changed: those of strands that are new are centred now."""
-    fresh = [strand for strand in net.strands if strand not in lines]
-    kept = {strand: line for strand, line in lines.items() if strand in net.strands}
-    return kept | centre_lines(net, ink, width_px, fresh)
+def renewed(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> dict[int, Line]:
+    """The lines of a graph that has changed: those of strands that are new are found now."""
+    fresh = [strand for strand in graph.strands if strand not in lines]
+    kept = {strand: line for strand, line in lines.items() if strand in graph.strands}
+    return kept | centre_lines(graph, ink, width_px, fresh)
 
 
 def centre_lines(
-    net: Network, ink: Ink, width_px: float, strands: list[int] | None = None
+    graph: StrandGraph, ink: Ink, width_px: float, strands: list[int] | None = None
 ) -> dict[int, Line]:
-    """The centred line of each strand, walking from its start; closed loops lose nothing at the seam."""
-    strands = list(net.strands) if strands is None else strands
+    """The centre line of each strand, walking from its start; closed loops lose nothing at the seam."""
+    strands = list(graph.strands) if strands is None else strands
     if not strands:
         return {}
     step = max(1.0, width_px / 8)
-    paths = [_resampled(net.path(strand), step) for strand in strands]
+    paths = [_resampled(graph.path(strand), step) for strand in strands]
     loops = [
-        net.strands[s].start == net.strands[s].end and net.degree(net.strands[s].start) == 2 for s in strands
+        graph.strands[s].start == graph.strands[s].end and graph.degree(graph.strands[s].start) == 2
+        for s in strands
     ]
     sigma = max(_SMOOTHING * width_px, 1.0) / step
     # The first pass only has to come near enough for the second.

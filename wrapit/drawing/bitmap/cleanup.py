@@ -5,13 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 from wrapit.geometry.disjoint_sets import Sets
 
-# In stroke widths, and squares of them.
+# What is a pinhole, where antialiased strokes meet? Less than 0.12 squared widths of paper; they made false
+# junctions of degree five and six on prototypes. Looked for only inside rings of strands that are each
+# shorter than 1.6 widths, which no larger hole allows. 30 % make no difference.
 _PINHOLE_RING = 1.6
 _PINHOLE_AREA = 0.12
+# What is a spur? A side branch shorter than this many half widths of the ink at its junction, which end
+# hardly beyond the edge of the other stroke; set on prototypes.
+_SPUR = 1.4
+# What is a loop around nothing, and a speck of dirt? In stroke widths; the first was set on prototypes, the
+# second is a dot, no line.
+_SMALLEST_LOOP = 2.2
+_SPECK = 1.5
 
 
 class Radii:
@@ -27,115 +36,121 @@ class Radii:
         return float(self._distance[self._tree.query(point)[1]])
 
 
-def tidy(net: Network, radius: Radii, width_px: float) -> bool:
+def tidy(graph: StrandGraph, radius: Radii, width_px: float) -> bool:
     """Drops small loops and spurs until none is left (a loop may sit at the tip of a spur)."""
     changed = False
     while True:
-        before = len(net.strands)
-        _drop_small_loops(net, width_px)
-        _prune_spurs(net, radius, width_px)
-        if len(net.strands) == before:
+        before = len(graph.strands)
+        _drop_small_loops(graph, width_px)
+        _prune_spurs(graph, radius, width_px)
+        if len(graph.strands) == before:
             return changed
         changed = True
 
 
-def _prune_spurs(net: Network, radius: Radii, width_px: float) -> None:
-    """Drops side branches shorter than 1.4 times the ink's half width at their junction, shortest first."""
+def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
+    """Drops side branches shorter than `_SPUR` half widths of the ink at their junction, shortest first."""
     while True:
         spurs = []
-        for strand, s in net.strands.items():
-            free = [net.degree(node) == 1 for node in (s.start, s.end)]
+        for strand, s in graph.strands.items():
+            free = [graph.degree(node) == 1 for node in (s.start, s.end)]
             if free[0] == free[1]:
                 continue
             node = s.end if free[0] else s.start
-            length = net.length(strand)
-            if length < 1.4 * max(radius(net.nodes[node]), width_px / 2):
+            length = graph.length(strand)
+            if length < _SPUR * max(radius(graph.nodes[node]), width_px / 2):
                 spurs.append((length, strand, node))
         if not spurs:
             return
         touched: set[int] = set()
         for length, strand, node in sorted(spurs):
-            if node in touched or net.degree(node) < 3:
+            if node in touched or graph.degree(node) < 3:
                 continue
             touched.add(node)
-            s = net.strands[strand]
+            s = graph.strands[strand]
             tip = s.start if s.end == node else s.end
-            net.note("spur", net.nodes[tip], length, "shorter than the stroke is wide")
-            net.drop_strand(strand)
-            if net.degree(node) == 2:
-                net.rejoin(node)
+            graph.note("spur", graph.nodes[tip], length, "shorter than the stroke is wide")
+            graph.drop_strand(strand)
+            if graph.degree(node) == 2:
+                graph.rejoin(node)
         if not touched:
             return
-        net.drop_lonely()
+        graph.drop_lonely()
 
 
-def contract_short(net: Network, radius: Radii, share: float) -> None:
+def contract_short(graph: StrandGraph, radius: Radii, share: float) -> None:
     """Makes one node of two whose strand is shorter than `share` times the sum of their half widths."""
     merged = True
     while merged:
         short = []
-        reach = {node: radius(point) for node, point in net.nodes.items() if net.degree(node) >= 3}
-        for strand, s in net.strands.items():
+        reach = {node: radius(point) for node, point in graph.nodes.items() if graph.degree(node) >= 3}
+        for strand, s in graph.strands.items():
             if s.start == s.end or s.start not in reach or s.end not in reach:
                 continue
             limit = share * (reach[s.start] + reach[s.end])
-            if len(s.points) <= limit and (length := net.length(strand)) < limit:
+            if len(s.points) <= limit and (length := graph.length(strand)) < limit:
                 short.append((length, strand))
         merged, touched = False, set[int]()
         for _, strand in sorted(short):
-            s = net.strands[strand]
+            s = graph.strands[strand]
             if s.start in touched or s.end in touched:
                 continue
             touched |= {s.start, s.end}
-            net.merge([s.start, s.end], (net.nodes[s.start] + net.nodes[s.end]) / 2, [strand])
+            graph.merge([s.start, s.end], (graph.nodes[s.start] + graph.nodes[s.end]) / 2, [strand])
             merged = True
 
 
-def _drop_small_loops(net: Network, width_px: float) -> None:
-    """Drops loops around nothing: shorter than 2.2 stroke widths, from a node to itself."""
-    for strand, s in list(net.strands.items()):
-        if s.start == s.end and net.length(strand) < 2.2 * width_px:
+def _drop_small_loops(graph: StrandGraph, width_px: float) -> None:
+    """Drops loops around nothing: shorter than `_SMALLEST_LOOP`, from a node to itself."""
+    for strand, s in list(graph.strands.items()):
+        if s.start == s.end and graph.length(strand) < _SMALLEST_LOOP * width_px:
             if len(s.points) > width_px / 2:
-                net.note("loop", net.nodes[s.start], net.length(strand), "smaller than the stroke is wide")
-            net.drop_strand(strand)
-    net.drop_lonely()
-    net.rejoin_all()
+                graph.note(
+                    "loop", graph.nodes[s.start], graph.length(strand), "smaller than the stroke is wide"
+                )
+            graph.drop_strand(strand)
+    graph.drop_lonely()
+    graph.rejoin_all()
 
 
-def components(net: Network) -> list[list[int]]:
+def components(graph: StrandGraph) -> list[list[int]]:
     """The strands of each connected piece, the longest piece first."""
     group: dict[int, int] = {}
     count = 0
-    for seed in net.nodes:
+    for seed in graph.nodes:
         if seed in group:
             continue
         queue, group[seed] = [seed], count
         for node in queue:
-            for strand, _ in net.ends_at(node):
-                s = net.strands[strand]
+            for strand, _ in graph.ends_at(node):
+                s = graph.strands[strand]
                 for other in (s.start, s.end):
                     if other not in group:
                         group[other] = count
                         queue.append(other)
         count += 1
     pieces: list[list[int]] = [[] for _ in range(count)]
-    for strand, s in net.strands.items():
+    for strand, s in graph.strands.items():
         pieces[group[s.start]].append(strand)
-    return sorted(filter(None, pieces), key=lambda strands: -sum(net.length(k) for k in strands))
+    return sorted(filter(None, pieces), key=lambda strands: -sum(graph.length(k) for k in strands))
 
 
-def drop_crumbs(net: Network, width_px: float) -> None:
+def drop_crumbs(graph: StrandGraph, width_px: float) -> None:
     """Drops specks of dirt: pieces shorter than the stroke is wide."""
-    for strands in components(net)[1:]:
-        length = sum(net.length(strand) for strand in strands)
-        if length < 1.5 * width_px:
-            net.note("speck", net.path(strands[0]).mean(axis=0), length, "no longer than the stroke is wide")
+    for strands in components(graph)[1:]:
+        length = sum(graph.length(strand) for strand in strands)
+        if length < _SPECK * width_px:
+            graph.note(
+                "speck", graph.path(strands[0]).mean(axis=0), length, "no longer than the stroke is wide"
+            )
             for strand in strands:
-                net.drop_strand(strand)
-    net.drop_lonely()
+                graph.drop_strand(strand)
+    graph.drop_lonely()
 
 
-def without_pinholes(net: Network, mask: NDArray[np.bool_], width_px: float) -> NDArray[np.bool_] | None:
+def without_pinholes(
+    graph: StrandGraph, mask: NDArray[np.bool_], width_px: float
+) -> NDArray[np.bool_] | None:
     """The mask with pinholes filled, or nothing where there are none.
 
     Pinholes are specks of paper inside the ink, where antialiased strokes meet; they would become rings.
@@ -143,8 +158,8 @@ def without_pinholes(net: Network, mask: NDArray[np.bool_], width_px: float) -> 
     Only places where short strands close a ring are looked at, not the whole picture.
     """
     filled = None
-    for ring in _rings(net, width_px):
-        points = np.concatenate([net.path(strand) for strand in ring])
+    for ring in _rings(graph, width_px):
+        points = np.concatenate([graph.path(strand) for strand in ring])
         x0, y0 = np.maximum(points.min(axis=0).astype(int) - 2, 0)
         x1, y1 = points.max(axis=0).astype(int) + 3
         window = (slice(y0, y1), slice(x0, x1))
@@ -155,19 +170,19 @@ def without_pinholes(net: Network, mask: NDArray[np.bool_], width_px: float) -> 
     return filled
 
 
-def _rings(net: Network, width_px: float) -> list[list[int]]:
+def _rings(graph: StrandGraph, width_px: float) -> list[list[int]]:
     """Groups of short strands that hang together and close at least one ring."""
     together = Sets()
-    short = [s for s in net.strands if len(net.strands[s].points) < _PINHOLE_RING * width_px]
+    short = [s for s in graph.strands if len(graph.strands[s].points) < _PINHOLE_RING * width_px]
     for strand in short:
-        s = net.strands[strand]
+        s = graph.strands[strand]
         together.merge(s.start, s.end)
     groups: dict[int, list[int]] = {}
     for strand in short:
-        groups.setdefault(together.find(net.strands[strand].start), []).append(strand)
+        groups.setdefault(together.find(graph.strands[strand].start), []).append(strand)
     rings = []
     for group in groups.values():
-        nodes = {node for k in group for node in (net.strands[k].start, net.strands[k].end)}
+        nodes = {node for k in group for node in (graph.strands[k].start, graph.strands[k].end)}
         if len(group) >= len(nodes):
             rings.append(group)
     return rings

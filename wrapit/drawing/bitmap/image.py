@@ -1,22 +1,38 @@
-"""Loads a bitmap as one grey image: dark ink on light paper, whatever the file holds."""
+"""Loads a bitmap as one grey image: dark ink on light paper, whatever the file holds.
+
+Colours become grey in bands, to save memory: a large picture takes four bytes a pixel decoded and one as
+the grey result; whole intermediate pictures in colour or in floating point would take several times that.
+"""
 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.grey import GreyImage, count_levels, grey_of, is_light_on_dark
 from wrapit.drawing.signatures import HEAD_BYTES, kind_of
 from wrapit.errors import DrawingError
 
-__all__ = ["FORMATS", "GreyImage", "count_levels", "load_grey"]
+GreyImage: TypeAlias = NDArray[np.uint8]
+# The same picture anew each time it is called: slices of rows, and those rows (n, w, 3) or (n, w, 4).
+_Bands: TypeAlias = Callable[[], Iterator[tuple[slice, NDArray[Any]]]]
 
 # What a file may hold, whatever its name says: Pillow would start other programs for some others.
 FORMATS = ("PNG", "JPEG", "BMP", "TIFF", "WEBP", "GIF")
+# The remedy of all that Pillow could open otherwise.
 _SAVE_AS = "save it as PNG, JPEG, BMP, TIFF or WebP"
+# No drawing has fewer pixels a side: a stroke of four would fill it.
+_SMALLEST_PX = 8
+# When is one channel better than plain grey? Where it shows the ink this much better, as yellow on white,
+# whose contrast in blue is nine times that of its grey; black ink shows alike in all, noise included.
+_CLEARER = 1.6
+# How much is worked out at a time? Beside a picture of 25 million pixels 4 to 28 bytes a pixel are taken,
+# by its mode; bands of 500 pixels give the same bytes.
+_BAND_PIXELS = 1_000_000
 
 
 def load_grey(path: Path, pixel_limit: int) -> tuple[GreyImage, bool]:
@@ -97,5 +113,154 @@ def _check_size(size: tuple[int, int], path: Path, pixel_limit: int) -> None:
             str(path),
             "scale it down, or raise tracing.pixel_limit",
         )
-    if min(width, height) < 8:
+    if min(width, height) < _SMALLEST_PX:
         raise DrawingError(f"the image has only {width} × {height} pixels", str(path), "use a larger picture")
+
+
+def grey_of(image: Any) -> GreyImage:
+    """A decoded Pillow image of any mode as grey bytes (h, w), its ink as clear as it can be shown."""
+    if image.mode.startswith("I") or image.mode == "F":
+        return _bytes_of(_bands(image))
+    if image.mode == "L":
+        return np.asarray(image)
+    if image.mode == "1":
+        return np.asarray(image.convert("L"))
+    shape = (image.height, image.width)
+    if image.mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in image.info:
+        return _flattened(_bands(image, "RGBA"), shape)
+    return _best_channel(_bands(image, "RGB"), shape)
+
+
+def count_levels(grey: GreyImage) -> NDArray[np.int64]:
+    """How many pixels have each of the 256 levels; Pillow counts bytes much faster than numpy."""
+    from PIL import Image
+
+    return np.array(Image.fromarray(np.ascontiguousarray(grey)).histogram(), dtype=np.int64)
+
+
+def is_light_on_dark(grey: GreyImage) -> bool:
+    """Whether the rim of the picture, where paper is, is darker than the middle of its range."""
+    rim = np.concatenate([grey[0], grey[-1], grey[:, 0], grey[:, -1]])
+    thinned = grey[::3, ::3]
+    counts = np.zeros(256, dtype=np.int64)
+    # Counting widens what it counts to eight bytes each.
+    for rows in bands_of(thinned.shape):
+        counts += np.bincount(thinned[rows].ravel(), minlength=256)
+    shares = np.cumsum(counts) / thinned.size
+    low, high = np.searchsorted(shares, 0.002), np.searchsorted(shares, 0.998)
+    return bool(np.median(rim) < (low + high) / 2)
+
+
+def bands_of(shape: tuple[int, ...], step: int = 1) -> Iterator[slice]:
+    """Slices of rows, each of about a million pixels and a multiple of `step` rows, that make the whole."""
+    rows = max(1, _BAND_PIXELS // max(shape[1], 1) // step) * step
+    for top in range(0, shape[0], rows):
+        yield slice(top, min(top + rows, shape[0]))
+
+
+def _bands(image: Any, mode: str | None = None) -> _Bands:
+    width, height = image.size
+
+    def bands() -> Iterator[tuple[slice, NDArray[Any]]]:
+        for rows in bands_of((height, width)):
+            band = image.crop((0, rows.start, width, rows.stop))
+            # Pillow knows no direct way from premultiplied grey to colours.
+            band = band.convert("LA") if band.mode == "La" else band
+            yield rows, np.asarray(band if mode is None else band.convert(mode))
+
+    return bands
+
+
+def _bytes_of(bands: _Bands) -> GreyImage:
+    """Bytes of a deeper image: 16 bits by their range, floats and 32 bits by what they hold."""
+    low, high, whole, parts = np.inf, -np.inf, True, []
+    for _, values in bands():
+        numbers = _finite(values)
+        low, high = min(low, float(numbers.min())), max(high, float(numbers.max()))
+        whole = values.dtype.kind in "iu"
+    if low >= 0 and high <= 255 and whole:
+        low, high = 0.0, 255.0
+    elif low >= 0 and high <= 65535 and whole:
+        low, high = 0.0, 65535.0
+    for _, values in bands():
+        parts.append(((_finite(values) - low) * (255.0 / max(high - low, 1e-9)) + 0.5).astype(np.uint8))
+    return np.concatenate(parts)
+
+
+def _finite(values: NDArray[Any]) -> NDArray[np.float32]:
+    return np.nan_to_num(values.astype(np.float32), nan=0.0, posinf=0.0, neginf=0.0)
+
+
+def _flattened(rgba: _Bands, shape: tuple[int, int]) -> GreyImage:
+    """Transparent images on the paper that shows their ink best.
+
+    Where everything visible has one colour, the opacity itself is the ink.
+    """
+    alpha = np.empty(shape, dtype=np.uint8)
+    shown = np.zeros((3, 256), dtype=np.int64)
+    for rows, band in rgba():
+        alpha[rows] = band[..., 3]
+        visible = band[..., 3] > 127
+        for channel in range(3):
+            shown[channel] += np.bincount(band[..., channel][visible], minlength=256)
+    if alpha.min() == 255:
+        del alpha
+        return _best_channel(lambda: ((rows, band[..., :3]) for rows, band in rgba()), shape)
+    count = int(shown[0].sum())
+    if not count:
+        return np.full(shape, 255, dtype=np.uint8)
+    if max(_level(levels, 0.95) - _level(levels, 0.05) for levels in shown) < 48:
+        return 255 - alpha
+    del alpha
+    mean = float((shown * np.arange(256)).sum()) / (3 * count)
+    paper = 0.0 if mean > 127 and count / (shape[0] * shape[1]) < 0.5 else 255.0
+
+    def flat() -> Iterator[tuple[slice, NDArray[Any]]]:
+        for rows, band in rgba():
+            share = band[..., 3:].astype(np.float32) / 255
+            yield rows, (band[..., :3] * share + paper * (1 - share) + 0.5).astype(np.uint8)
+
+    return _best_channel(flat, shape)
+
+
+def _level(levels: NDArray[np.int64], share: float) -> float:
+    """The level that this share of the counted pixels doesn't exceed, between two levels if need be."""
+    total = np.cumsum(levels)
+    at = share * (int(total[-1]) - 1)
+    below, above = (int(np.searchsorted(total, place, side="right")) for place in (np.floor(at), np.ceil(at)))
+    return below + (above - below) * (at - float(np.floor(at)))
+
+
+def _best_channel(rgb: _Bands, shape: tuple[int, int]) -> GreyImage:
+    """Plain grey, or the darkest (lightest) channel where coloured ink shows much better in it."""
+    luma = np.empty(shape, dtype=np.uint8)
+    # Of the darkest, the lightest and each single channel.
+    counts = np.zeros((5, 256), dtype=np.int64)
+    for rows, band in rgb():
+        luma[rows] = (band @ np.array([0.299, 0.587, 0.114], dtype=np.float32) + 0.5).astype(np.uint8)
+        for number in range(5):
+            counts[number] += count_levels(_channel(band, number))
+    extreme = 1 if is_light_on_dark(luma) else 0
+    choices = [extreme, 2, 3, 4]
+    plain = _contrast(count_levels(luma))
+    contrast = [_contrast(counts[choice]) for choice in choices]
+    best = int(np.argmax(contrast))
+    if contrast[best] <= _CLEARER * plain:
+        return luma
+    for rows, band in rgb():
+        luma[rows] = _channel(band, choices[best])
+    return luma
+
+
+def _channel(rgb: NDArray[np.uint8], number: int) -> NDArray[np.uint8]:
+    """The darkest (0), the lightest (1), or red, green or blue (2, 3, 4) of each pixel."""
+    if number < 2:
+        darkest: NDArray[np.uint8] = rgb.max(axis=2) if number else rgb.min(axis=2)
+        return darkest
+    return rgb[..., number - 2]
+
+
+def _contrast(levels: NDArray[np.int64]) -> float:
+    """How far the ends of the histogram are apart, forgetting single pixels."""
+    shares = np.cumsum(levels) / levels.sum()
+    return float(np.searchsorted(shares, 0.995) - np.searchsorted(shares, 0.005))

@@ -6,18 +6,23 @@ import numpy as np
 
 from wrapit.drawing.bitmap.cleanup import components
 from wrapit.drawing.bitmap.image import GreyImage, count_levels
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 
-# Shares of the picture's rim, of its size, of the picture, and of the paper.
+# What is a table under the paper? Dark ground that takes this share of the picture's rim and stays when as
+# much of the picture's size as `_BROADER` is taken off all around, which no stroke does.
 _DARK_RIM = 0.05
 _BROADER = 0.015
+# What is the paper on it? At least this share of the picture, and bright to this share: the ground of a light
+# drawing surrounds dark fields.
 _PAPER = 0.2
 _BRIGHT = 0.7
-# Of the picture's contrast.
+# What is the paper's edge, not a shadow's? A step by this share of the picture's contrast.
 _EDGE = 0.5
+# Every how many pixels is looked? A table is hundreds of pixels broad.
 _COARSE = 4
-# A photographed frame is a little askew.
+# What is a frame? A rectangle that may be askew as a photo is (1 degree is 0.017 of its side), with this
+# share of its points on the sides of its box, around at least this share of its own length.
 _ASKEW = 0.02
 _ON_SIDES = 0.98
 _LEAST_INSIDE = 0.05
@@ -58,26 +63,26 @@ def without_table(grey: GreyImage) -> GreyImage | None:
     return np.where(full, np.uint8(level), grey)
 
 
-def drop_frames(net: Network, width_px: float) -> None:
+def drop_frames(graph: StrandGraph, width_px: float) -> None:
     """Drops rectangles that surround all other pieces without touching them, and says so."""
-    while _drop_frame(net, width_px):
+    while _drop_frame(graph, width_px):
         pass
 
 
-def _drop_frame(net: Network, width_px: float) -> bool:
-    pieces = components(net)
+def _drop_frame(graph: StrandGraph, width_px: float) -> bool:
+    pieces = components(graph)
     if len(pieces) < 2:
         return False
-    chains = [np.concatenate([net.path(strand) for strand in strands]) for strands in pieces]
+    chains = [np.concatenate([graph.path(strand) for strand in strands]) for strands in pieces]
     boxes = [(chain.min(axis=0), chain.max(axis=0)) for chain in chains]
-    lengths = [sum(net.length(strand) for strand in strands) for strands in pieces]
+    lengths = [sum(graph.length(strand) for strand in strands) for strands in pieces]
     for k, (low, high) in enumerate(boxes):
         others = [box for index, box in enumerate(boxes) if index != k]
         around = all((inner > low).all() and (outer < high).all() for inner, outer in others)
         enough = sum(lengths) - lengths[k] > _LEAST_INSIDE * lengths[k]
         if around and enough and _is_rectangle(chains[k], low, high, width_px):
-            net.note("frame", (low + high) / 2, lengths[k], "a rectangle around the drawing")
-            net.tell(
+            graph.note("frame", (low + high) / 2, lengths[k], "a rectangle around the drawing")
+            graph.tell(
                 "warning",
                 "frame",
                 low,
@@ -85,8 +90,8 @@ def _drop_frame(net: Network, width_px: float) -> bool:
                 "connect the drawing to it if it belongs to the piece",
             )
             for strand in pieces[k]:
-                net.drop_strand(strand)
-            net.drop_lonely()
+                graph.drop_strand(strand)
+            graph.drop_lonely()
             return True
     return False
 

@@ -1,4 +1,4 @@
-"""From ink to a network of pixel chains: thinning, junction clusters, ordered chains."""
+"""From ink to a graph of pixel chains: thinning, junction clusters, ordered chains."""
 
 from __future__ import annotations
 
@@ -8,10 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, IntArray
 
 BoolImage = NDArray[np.bool_]
+# How much shorter is the distance from a stroke's centre to the nearest paper pixel than half its width,
+# twice? Measured from pixel centres, it is half a pixel too long.
+_PIXEL_EXCESS = 0.5
+# Of the rim's pixels, which are looked at to see whether thinning ate an end away? Every eighth: where an
+# end is eaten away, all around it is bare.
+_RIM_STEP = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +54,7 @@ def thin(mask: BoolImage) -> Skeleton:
     rim = _rim(mask)
     skeletonize: Any = morphology.skeletonize
     skeleton = _measured(skeletonize(mask), rim)
-    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::8])
+    reach, _ = cKDTree(skeleton.pixels, balanced_tree=False, compact_nodes=False).query(rim[::_RIM_STEP])
     if reach.max() > max(skeleton.width_px + 1, 1.2 * skeleton.distance.max()):
         skeleton = _measured(skeletonize(mask, method="lee") > 0, rim)
     return skeleton
@@ -71,7 +77,7 @@ def _measured(thinned: BoolImage, rim: FloatArray) -> Skeleton:
 
     pixels, pairs = _neighbours(thinned)
     distance, _ = cKDTree(rim, balanced_tree=False, compact_nodes=False).query(pixels)
-    return Skeleton(pixels, pairs, distance, float(2 * np.median(distance) - 0.5))
+    return Skeleton(pixels, pairs, distance, float(2 * np.median(distance) - _PIXEL_EXCESS))
 
 
 def _neighbours(thinned: BoolImage) -> tuple[FloatArray, IntArray]:
@@ -99,8 +105,8 @@ def _neighbours(thinned: BoolImage) -> tuple[FloatArray, IntArray]:
     return pixels, np.concatenate(pairs)
 
 
-def network(pixels: FloatArray, pairs: IntArray) -> Network:
-    """The network of a skeleton: a node for each cluster of branching pixels, end and closed loop."""
+def strand_graph_of(pixels: FloatArray, pairs: IntArray) -> StrandGraph:
+    """The strand graph of a skeleton: a node for each cluster of branching pixels, end and closed loop."""
     from scipy.sparse.csgraph import connected_components
 
     count = len(pixels)
@@ -113,10 +119,10 @@ def network(pixels: FloatArray, pairs: IntArray) -> Network:
     cluster_of = np.full(count, -1)
     cluster_of[branching] = label
 
-    net = Network()
+    graph = StrandGraph()
     sizes = np.bincount(label, minlength=len(clusters))
     for x, y in zip(*(np.bincount(label, pixels[branching, k]) / sizes for k in (0, 1)), strict=True):
-        net.add_node(np.array([x, y]))
+        graph.add_node(np.array([x, y]))
 
     along = pairs[~between.any(axis=1)]
     order, starts = _chains(along, ~branching)
@@ -129,12 +135,12 @@ def network(pixels: FloatArray, pairs: IntArray) -> Network:
 
     closed = degree == 2
     for chain in np.split(order, starts[1:]) if len(order) else []:
-        _add_chain(net, chain, pixels, cluster_at, closed)
-    return net
+        _add_chain(graph, chain, pixels, cluster_at, closed)
+    return graph
 
 
 def _add_chain(
-    net: Network,
+    graph: StrandGraph,
     chain: IntArray,
     pixels: FloatArray,
     cluster_at: dict[int, list[int]],
@@ -146,14 +152,14 @@ def _add_chain(
     if first == last:
         heads, tails = heads[:1], heads[1:2]
     if not heads and not tails and len(chain) > 2 and two_neighbours[first] and two_neighbours[last]:
-        node = net.add_node(points[0])
-        net.add_strand(node, node, points[1:])
+        node = graph.add_node(points[0])
+        graph.add_strand(node, node, points[1:])
         return
-    head = heads[0] if heads else net.add_node(points[0])
-    tail = tails[0] if tails else net.add_node(points[-1])
+    head = heads[0] if heads else graph.add_node(points[0])
+    tail = tails[0] if tails else graph.add_node(points[-1])
     inside = points[0 if heads else 1 : len(points) if tails else len(points) - 1]
     if head != tail or len(inside):
-        net.add_strand(head, tail, inside)
+        graph.add_strand(head, tail, inside)
 
 
 def _chains(pairs: IntArray, member: NDArray[np.bool_]) -> tuple[IntArray, IntArray]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import Piece, Placement, assemble, placement
-from wrapit.drawing.bitmap.arms import Arm, Ending, arms_at, kinked, pair, place
+from wrapit.drawing.bitmap.arms import Arm, arms_at
 from wrapit.drawing.bitmap.centre_lines import Line, centre_lines, renewed
 from wrapit.drawing.bitmap.cleanup import (
     Radii,
@@ -18,17 +18,18 @@ from wrapit.drawing.bitmap.cleanup import (
     without_pinholes,
 )
 from wrapit.drawing.bitmap.corners import open_tips, split_corners
-from wrapit.drawing.bitmap.ends import place_end
+from wrapit.drawing.bitmap.endings import Ending, place, place_end
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.overlaps.stage import join_crossings
+from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
+from wrapit.drawing.bitmap.pairing import kinked, pair
 from wrapit.drawing.bitmap.paper import drop_frames
 from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_on_table, read_picture
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
-from wrapit.drawing.bitmap.skeleton import network, thin_within
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.skeleton import strand_graph_of, thin_within
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.drawing.changes import Change, Notice
-from wrapit.drawing.components import Connected, connect
+from wrapit.drawing.components import LONGEST_LINK, Connected, connect
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, unit
@@ -95,39 +96,39 @@ def _traced(
 ) -> tuple[Drawing, tuple[Finding, ...]]:
     ink, skeleton = picture.ink, picture.skeleton
     width_px = skeleton.width_px
-    net = network(skeleton.pixels, skeleton.pairs)
-    filled = without_pinholes(net, ink.mask, width_px)
+    graph = strand_graph_of(skeleton.pixels, skeleton.pairs)
+    filled = without_pinholes(graph, ink.mask, width_px)
     if filled is not None:
         skeleton = thin_within(filled)
-        net = network(skeleton.pixels, skeleton.pairs)
+        graph = strand_graph_of(skeleton.pixels, skeleton.pairs)
     radius = Radii(skeleton.pixels, skeleton.distance)
-    net.rejoin_all()
-    tidy(net, radius, width_px)
-    refuse_other_pictures(ink, skeleton, net, str(path))
-    contract_short(net, radius, 0.35)
-    tidy(net, radius, width_px)
-    drop_crumbs(net, width_px)
-    drop_frames(net, width_px)
-    refuse_loose_strokes(net, str(path))
-    lines = centre_lines(net, ink, width_px)
-    open_tips(net, lines, width_px)
-    join_crossings(net, lines, ink, width_px)
-    contract_short(net, radius, 1.0)
-    if tidy(net, radius, width_px):
-        lines = renewed(net, lines, ink, width_px)
-    close_gaps(net, lines, ink, width_px)
-    split_corners(net, lines, width_px, tracing.corner_angle)
+    graph.rejoin_all()
+    tidy(graph, radius, width_px)
+    refuse_other_pictures(ink, skeleton, graph, str(path))
+    contract_short(graph, radius, 0.35)
+    tidy(graph, radius, width_px)
+    drop_crumbs(graph, width_px)
+    drop_frames(graph, width_px)
+    refuse_loose_strokes(graph, str(path))
+    lines = centre_lines(graph, ink, width_px)
+    open_tips(graph, lines, width_px)
+    resolve_overlaps(graph, lines, ink, width_px)
+    contract_short(graph, radius, 1.0)
+    if tidy(graph, radius, width_px):
+        lines = renewed(graph, lines, ink, width_px)
+    close_gaps(graph, lines, ink, width_px)
+    split_corners(graph, lines, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
-    drop_short(net, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
-    pieces = _fitted(net, lines, ink, width_px, tracing.tolerance)
-    connected = connect(net.nodes, pieces, tracing.components, 0.25 * size_px)
-    net.changes += connected.changes
-    net.notices += connected.notices
-    return _drawing(net, connected, picture, size_mm)
+    drop_short(graph, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
+    pieces = _fitted(graph, lines, ink, width_px, tracing.tolerance)
+    connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
+    graph.changes += connected.changes
+    graph.notices += connected.notices
+    return _drawing(graph, connected, picture, size_mm)
 
 
 def _drawing(
-    net: Network, connected: Connected, picture: Picture, size_mm: float
+    graph: StrandGraph, connected: Connected, picture: Picture, size_mm: float
 ) -> tuple[Drawing, tuple[Finding, ...]]:
     pieces = [
         Piece(piece.start, piece.end, BezierChain(picture.source(piece.curve.points)), piece.kind)
@@ -142,7 +143,7 @@ def _drawing(
             change.length_px * picture.factor,
             change.reason,
         )
-        for change in net.changes
+        for change in graph.changes
         for x, y in [picture.source(np.array(change.at_px)).tolist()]
     ]
     drawing = assemble(
@@ -153,7 +154,7 @@ def _drawing(
         changes=changes,
         pixel_frame=True,
     )
-    findings = [*_about(picture), *(_finding(notice, picture, where) for notice in net.notices)]
+    findings = [*_about(picture), *(_finding(notice, picture, where) for notice in graph.notices)]
     return drawing, tuple(findings)
 
 
@@ -190,32 +191,35 @@ def _finding(notice: Notice, picture: Picture, where: Placement) -> Finding:
     return Finding(notice.level, notice.code, place, notice.message, notice.remedy)
 
 
-def _fitted(net: Network, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float) -> list[Piece]:
+def _fitted(
+    graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float
+) -> list[Piece]:
     endings: dict[tuple[int, int], Ending] = {}
-    for node in net.nodes:
-        arms = arms_at(net, lines, node, width_px)
+    for node in graph.nodes:
+        arms = arms_at(graph, lines, node, width_px)
         if len(arms) == 1:
-            net.nodes[node], ending = place_end(arms[0], ink)
+            graph.nodes[node], ending = place_end(arms[0], ink)
             endings[arms[0].strand, arms[0].end] = ending
         elif len(arms) == 2 and arms[0].strand == arms[1].strand:
-            _seam(net, lines, node, endings, width_px)
+            _seam(graph, lines, node, endings, width_px)
         else:
-            net.nodes[node], found = place(arms, net.nodes[node], _pairs(net, node, arms))
+            graph.nodes[node], found = place(arms, graph.nodes[node], _pairs(graph, node, arms))
             for arm, ending in zip(arms, found, strict=True):
                 endings[arm.strand, arm.end] = ending
     strokes = [
-        _stroke(net, strand, lines[strand], endings[strand, 0], endings[strand, 1]) for strand in net.strands
+        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1])
+        for strand in graph.strands
     ]
     chains = fit_all(strokes, tolerance * width_px, reach=width_px)
-    return [Piece(s.start, s.end, chain) for s, chain in zip(net.strands.values(), chains, strict=True)]
+    return [Piece(s.start, s.end, chain) for s, chain in zip(graph.strands.values(), chains, strict=True)]
 
 
-def _pairs(net: Network, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
+def _pairs(graph: StrandGraph, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
     """Which arms of a node continue each other; at a corner, where only two meet, none do."""
     if len(arms) == 2:
         return []
     index = {(arm.strand, arm.end): k for k, arm in enumerate(arms)}
-    known = net.through.get(node, ())
+    known = graph.through.get(node, ())
     if len(arms) == 4 and known and all(end in index for ends in known for end in ends):
         pairs = [(index[a], index[b]) for a, b in known]
     else:
@@ -224,22 +228,26 @@ def _pairs(net: Network, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
 
 
 def _seam(
-    net: Network, lines: dict[int, Line], node: int, endings: dict[tuple[int, int], Ending], width_px: float
+    graph: StrandGraph,
+    lines: dict[int, Line],
+    node: int,
+    endings: dict[tuple[int, int], Ending],
+    width_px: float,
 ) -> None:
     """A closed loop without junction starts and ends at its topmost point, in one direction."""
-    strand = net.ends_at(node)[0][0]
+    strand = graph.ends_at(node)[0][0]
     line = lines[strand]
     top = int(np.argmin(line.points[:-1, 1]))
     lines[strand] = line = line.turned(top)
     reach = int(np.searchsorted(line.along, width_px))
     tangent = unit(line.points[reach] - line.points[-1 - reach])
-    net.nodes[node] = line.points[0]
+    graph.nodes[node] = line.points[0]
     endings[strand, 0] = Ending(tangent, np.zeros((0, 2)), 1)
     endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
 
 
-def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
-    s = net.strands[strand]
+def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
+    s = graph.strands[strand]
     stop = len(line.points) - last.cut
     inner = slice(first.cut, stop)
     keep = line.clean[inner] if stop > first.cut and line.clean[inner].mean() > 0.6 else slice(None)
@@ -247,6 +255,6 @@ def _stroke(net: Network, strand: int, line: Line, first: Ending, last: Ending) 
     # A point every quarter of the width tells a curve as well as one every eighth.
     middle = middle[:: 2 if len(middle) > 32 else 1]
     points = np.vstack(
-        [net.nodes[s.start][None], first.lead, middle, last.lead[::-1], net.nodes[s.end][None]]
+        [graph.nodes[s.start][None], first.lead, middle, last.lead[::-1], graph.nodes[s.end][None]]
     )
     return Stroke(points, first.tangent, -last.tangent)

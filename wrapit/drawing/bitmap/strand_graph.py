@@ -28,7 +28,7 @@ class Strand:
 
 
 @dataclass(eq=False)
-class Network:
+class StrandGraph:
     """Nodes (places) and strands by number; numbers are never used twice.
 
     `through` holds, for nodes where it is known, which strand ends continue each other.

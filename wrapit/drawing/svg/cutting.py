@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from wrapit.geometry import BezierChain, FloatArray, IntArray, unit
 
-# Parts shorter than this share of a cubic are rounding.
+# Parts shorter than this share of a cubic are rounding: nobody drew them.
 _LEAST_SHARE = 1e-7
 
 

@@ -13,18 +13,20 @@ from pathlib import Path
 from typing import Any
 
 from wrapit.drawing.signatures import kind_of
-from wrapit.drawing.svg.limits import refuse_endless
+from wrapit.drawing.svg.limits import DEEPEST, refuse_endless
 from wrapit.drawing.svg.texts import refuse_slow_texts
 from wrapit.errors import DrawingError
 
+# What is no drawing but a burden? Far more than any drawing holds; parsing as much takes seconds.
 _LARGEST_BYTES = 50_000_000
 _MOST_ELEMENTS = 100_000
-_DEEPEST = 150
+# The names that SVG files use, and one remedy for many faults.
 _SVG = "http://www.w3.org/2000/svg"
 _PLAIN = "save it as plain SVG"
 
 # What shows a file or a part of one that it refers to; a link (`a`) only leads there.
 _SHOWN = {"image", "use", "feimage", "lineargradient", "radialgradient", "pattern"}
+# Attributes of numbers, in which svgelements takes these words for numbers too.
 _NUMERIC = re.compile(r"d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height")
 _NO_NUMBER = re.compile(r"(?<![\w#-])(?:[-+]?nan|[-+]?inf(?:inity)?)(?![\w-])", re.IGNORECASE)
 
@@ -153,9 +155,9 @@ class _Builder:
             raise DrawingError(
                 f"the SVG file has more than {_MOST_ELEMENTS} elements", str(self._path), "simplify it"
             )
-        if len(self._open) >= _DEEPEST:
+        if len(self._open) >= DEEPEST:
             raise DrawingError(
-                f"groups are nested more than {_DEEPEST} deep", self._where(), "ungroup them, or simplify it"
+                f"groups are nested more than {DEEPEST} deep", self._where(), "ungroup them, or simplify it"
             )
         element = Element(name, attributes, self._parser.CurrentLineNumber)
         if self._open:

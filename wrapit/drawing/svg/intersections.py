@@ -12,7 +12,7 @@ from wrapit.drawing.svg.steps import Steps
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray, IntArray
 
-# Parameters closer than this are one place.
+# Parameters closer than this are one place: Newton's method comes to 1e-9 of the drawing's size.
 _SAME = 1e-6
 # On one curve, meeting itself: closer than this is a step and its neighbour.
 _ITSELF = 1e-3

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 # All copies counted. Reading as many takes a few seconds, and no jewellery has so many.
 MOST_SHAPES = 20_000
 MOST_PARTS = 20_000
-_DEEPEST = 150
+# Programs nest groups a dozen deep; svgelements recurses for each level, copies included.
+DEEPEST = 150
 # Characters of attributes that are handed down from groups to what is in them, summed over all elements;
 # those that every element reads anew weigh more, and styles, of which few rules apply, less.
 _MOST_CHARACTERS = 20_000_000
@@ -25,6 +26,7 @@ _STYLE_SHARE = 5
 _ENOUGH = 10**12
 _MANY = 10**7
 
+# Path data: a command with what follows, its numbers, and how many of them make one part.
 _COMMAND = re.compile(r"([A-DF-Za-df-z])([^A-DF-Za-df-z]*)")
 _NUMBER = re.compile(r"[0-9]+\.?[0-9]*|\.[0-9]+")
 _NUMBERS_EACH = {"h": 1, "v": 1, "m": 2, "l": 2, "t": 2, "q": 4, "s": 4, "c": 6, "a": 7}
@@ -51,9 +53,9 @@ def refuse_endless(root: Element, path: Path) -> None:
             "simplify it, or copy less with <use>",
         )
     refuse_parts(load.parts, path)
-    if load.depth > _DEEPEST:
+    if load.depth > DEEPEST:
         raise DrawingError(
-            f"groups and copies are nested {load.depth} deep (the limit is {_DEEPEST})",
+            f"groups and copies are nested {load.depth} deep (the limit is {DEEPEST})",
             str(path),
             "ungroup them, or copy less with <use>",
         )

@@ -12,12 +12,12 @@ import numpy as np
 from wrapit.drawing.svg.steps import queried
 from wrapit.geometry import FloatArray, IntArray, unit
 
-# Courses in the smallest group, and groups that make a larger one: few trees to ask, few times built anew.
+# Polylines in the smallest group, and groups that make a larger one: few trees to ask, few times built anew.
 _GROUP = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class Polyline:
     """A curve as short steps: points (n, 2), parameters, and lengths from its start."""
 
     points: FloatArray
@@ -66,23 +66,23 @@ class Boxes:
 
 
 class Parallels:
-    """Courses, and which of them run beside another: near to it, and in much the same direction.
+    """Polylines, and which of them run beside another: near to it, and in much the same direction.
 
     Near: closer than `near` to a step of theirs; much the same: the sine of the angle is less than `sine`.
-    Courses are added one by one, so that what is never added costs nothing. Trees can't grow: the courses
+    Polylines are added one by one, so that what is never added costs nothing. Trees can't grow: the polylines
     are in groups, and as soon as there are several of one size they become one of the next.
     """
 
     def __init__(self, near: float, sine: float) -> None:
         self._near, self._sine = near, sine
-        self._courses: list[Course] = []
+        self._polylines: list[Polyline] = []
         self._waiting: list[int] = []
         self._groups: list[list[_Group]] = []
 
-    def add(self, course: Course) -> None:
-        """Adds a course."""
-        self._waiting.append(len(self._courses))
-        self._courses.append(course)
+    def add(self, polyline: Polyline) -> None:
+        """Adds a polyline."""
+        self._waiting.append(len(self._polylines))
+        self._polylines.append(polyline)
         if len(self._waiting) < _GROUP:
             return
         members, self._waiting = self._waiting, []
@@ -90,43 +90,43 @@ class Parallels:
             if level == len(self._groups):
                 self._groups.append([])
             if len(self._groups[level]) < _GROUP - 1:
-                self._groups[level].append(_Group(self._courses, members))
+                self._groups[level].append(_Group(self._polylines, members))
                 return
             members = [*itertools.chain.from_iterable(g.members for g in self._groups[level]), *members]
             self._groups[level] = []
 
-    def beside(self, course: Course) -> list[Course]:
-        """The courses that may run beside another at two of its points or more, in the order of adding."""
+    def beside(self, polyline: Polyline) -> list[Polyline]:
+        """The polylines that may run beside another at two of its points or more, in the order of adding."""
         found = set(self._waiting)
         # A little more, so that nothing is lost to rounding.
-        near = self._near * (1 + 1e-9) + 1e-12 * float(np.abs(course.points).max())
+        near = self._near * (1 + 1e-9) + 1e-12 * float(np.abs(polyline.points).max())
         for group in itertools.chain.from_iterable(self._groups):
-            found |= group.beside(course, near, self._sine + 1e-9)
-        return [self._courses[number] for number in sorted(found)]
+            found |= group.beside(polyline, near, self._sine + 1e-9)
+        return [self._polylines[number] for number in sorted(found)]
 
 
 class _Group:
-    """Some of a list of courses, in a tree over their steps."""
+    """Some of a list of polylines, in a tree over their steps."""
 
-    def __init__(self, courses: list[Course], members: list[int]) -> None:
+    def __init__(self, polylines: list[Polyline], members: list[int]) -> None:
         from shapely import STRtree, linestrings
 
         self.members = members
-        chosen = [courses[number].points for number in members]
+        chosen = [polylines[number].points for number in members]
         self._owner = np.repeat(members, [len(points) - 1 for points in chosen])
         self._steps = np.concatenate([np.stack([points[:-1], points[1:]], axis=1) for points in chosen])
         self._tree = STRtree(linestrings(self._steps))
 
-    def beside(self, course: Course, near: float, sine: float) -> set[int]:
-        """Members that a course runs beside at two of its points or more."""
+    def beside(self, polyline: Polyline, near: float, sine: float) -> set[int]:
+        """Members that a polyline runs beside at two of its points or more."""
         from shapely import box
 
-        points = course.points
+        points = polyline.points
         pairs = []
         for at, step in queried(
             self._tree, len(points), lambda some: box(*(points[some] - near).T, *(points[some] + near).T)
         ):
-            kept = _beside(points[at], course.directions[at], self._steps[step], near, sine)
+            kept = _beside(points[at], polyline.directions[at], self._steps[step], near, sine)
             pairs.append(np.unique(np.column_stack([self._owner[step], at])[kept], axis=0))
         members, count = np.unique(np.concatenate(pairs)[:, 0], return_counts=True)
         return set(members[count > 1].tolist())

@@ -7,7 +7,12 @@ import numpy as np
 from wrapit.drawing.svg.steps import SAMPLES, Steps
 from wrapit.geometry import FloatArray, IntArray
 
+# From a step of a 24th of a cubic, each round doubles the correct digits; four would do, except at tangents.
 _ROUNDS = 8
+# What is a crossing? Where the curves then lie within this share of the drawing's size of each other.
+_MISSED = 1e-9
+# How far beyond its ends does a step count? The chord misses the curve by a little.
+_BEYOND = 0.2
 
 
 def crossings_near(
@@ -32,7 +37,7 @@ def crossings_near(
             break
         step = np.linalg.solve(matrix[regular], (y - x)[regular][:, :, None])[:, :, 0]
         u, v = np.clip(u + step[:, 0], 0, 1), np.clip(v + step[:, 1], 0, 1)
-    missed = np.linalg.norm(local(a, u)[0] - local(b, v)[0], axis=1) > 1e-9 * steps.size
+    missed = np.linalg.norm(local(a, u)[0] - local(b, v)[0], axis=1) > _MISSED * steps.size
     return rows[~missed], (k + u)[~missed], (m + v)[~missed]
 
 
@@ -69,7 +74,9 @@ def _straight(steps: Steps, first: IntArray, second: IntArray) -> tuple[IntArray
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         s = (gap[:, 0] * e[:, 1] - gap[:, 1] * e[:, 0]) / det
         t = (gap[:, 0] * d[:, 1] - gap[:, 1] * d[:, 0]) / det
-    rows = np.flatnonzero(~parallel & (s >= -0.2) & (s <= 1.2) & (t >= -0.2) & (t <= 1.2))
+    rows = np.flatnonzero(
+        ~parallel & (s >= -_BEYOND) & (s <= 1 + _BEYOND) & (t >= -_BEYOND) & (t <= 1 + _BEYOND)
+    )
     return rows, s[rows], t[rows]
 
 

@@ -15,7 +15,13 @@ from wrapit.drawing.svg.steps import Steps, steps_of
 from wrapit.drawing.svg.tidying import rejoined, without_doubles, without_stubs
 from wrapit.geometry import BezierChain, FloatArray
 
+# What is a stub behind a joint? In reaches, which are 0.95 stroke widths: a stroke that ends in another's ink
+# runs on for up to half a width, and a little more in a corner.
 _STUB = 0.63
+# Which places are one, and which pieces? In reaches as well: far less than ink is wide, far more than
+# rounding.
+_ONE_PLACE = 0.08
+_ONE_PIECE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +55,11 @@ def planar(curves: list[Curve], reach: float, corner_rad: float, where: str = "d
     for contact in contacts:
         for curve, at in contact.on:
             marks[curve].append((at, contact.point))
-    places = _places(contacts, steps, 0.08 * reach)
+    places = _places(contacts, steps, _ONE_PLACE * reach)
     pieces: list[Piece] = []
     for each, own in zip(curves, marks, strict=True):
         pieces += _pieces(each, own, places, reach)
-    pieces = without_doubles(pieces, 0.1 * reach)
+    pieces = without_doubles(pieces, _ONE_PIECE * reach)
     pieces, stubs = without_stubs(pieces, _STUB * reach)
     return Planar(places.all(), rejoined(pieces, corner_rad), stubs)
 

@@ -12,9 +12,12 @@ import numpy as np
 from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.bezier import evaluate
 
+# Into how many straight steps is each cubic cut? So many that in one step it hardly bends: a quarter of a
+# circle turns by less than 4 degrees in each.
 SAMPLES = 24
-# How many meetings of boxes are looked up at a time, about: 8 MB.
+# How many pairs of boxes are looked up at a time, about: 8 MB.
 _AT_ONCE = 500_000
+# And before it is known how many a shape meets.
 _FIRST = 256
 
 

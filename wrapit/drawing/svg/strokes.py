@@ -18,7 +18,9 @@ from wrapit.drawing.svg.planar import Curve
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
+# CSS and SVG 2: a pixel is a 96th of an inch.
 _MM_PER_PX = 25.4 / 96
+# Larger coordinates are slips of a unit or an exponent; products of these are still far from overflow.
 _LARGEST_PX = 1e12
 # What svgelements raises on numbers and names that it can't make sense of.
 _FAULTS = (

@@ -15,22 +15,27 @@ from wrapit.errors import DrawingError
 if TYPE_CHECKING:
     from wrapit.drawing.svg.document import Element
 
+# Some hundreds of blanks, and values of thousands of characters, are where the patterns begin to take
+# seconds; programs write a few dozen.
 _LONGEST_BLANK = 200
-# In general, and where several numbers follow each other in one pattern (fewer if it is not in order).
+_LONGEST_VALUE = 2_000
+_LONGEST_RULE = 5_000
+# Digits of one number: in general, and where several numbers follow each other in one pattern (fewer if it is
+# not in order).
 _MOST_DIGITS = 400
 _MOST_DIGITS_OF_PAIR = 20
 _MOST_DIGITS_OF_COLOUR = 12
 _MOST_DIGITS_OF_OTHER_COLOUR = 4
-_LONGEST_VALUE = 2_000
-_LONGEST_RULE = 5_000
 # Sum of the squares of the selectors' lengths.
 _MOST_SELECTING = 20_000_000
 
+# Attributes of numbers and of colours, each read by patterns of its own.
 _NUMBERS = {
     "viewBox", "width", "height", "x", "y", "x1", "x2", "y1", "y2", "cx", "cy", "r", "rx", "ry",
     "stroke-width", "opacity", "stroke-opacity", "fill-opacity", "font", "font-family", "font-size",
 }  # fmt: skip
 _COLOURS = {"fill", "stroke", "color", "stop-color"}
+# What is looked for in them, by patterns that take linear time.
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _POINTS = re.compile(r"[-+.,0-9eE\s]*")
 _PART_OF_COLOUR = re.compile(r"\s*[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)%?\s*")

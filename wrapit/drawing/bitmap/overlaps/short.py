@@ -10,16 +10,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.arms import Arm, Through, arm, through, turn
+from wrapit.drawing.bitmap.arms import Arm, arm
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.pairing import Through, through, turn
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
-# In stroke widths. Longer stretches are ribbons, whose edges tell more.
+# None of these, varied by 30 %, changes any of 48 generated overlaps or 8 pictures of the corpus: most
+# crossings are far from each limit. In stroke widths: what stretch is short, and long enough to show its
+# width? Longer ones are ribbons, whose edges tell more.
 _LONGEST = 2.5
 _SEEN = 0.8
+# When does the width show a crossing? Where it misses that of two crossing strokes by less than this (in
+# stroke widths), and by less than 0.6 times what it misses that of one stroke.
 _MISFIT = 0.28
 _BETTER = 0.6
+# How much may each stroke turn in the stretch? More where the width shows that they cross.
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
 
@@ -39,11 +45,11 @@ def worth_explaining(line: Line, width_px: float) -> bool:
     return line.length <= _LONGEST * width_px
 
 
-def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
+def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
     """The best explanation of a stretch between two forks by two strokes, or nothing."""
-    s, line = net.strands[strand], lines[strand]
-    heads = _others(net, lines, s.start, strand, width_px)
-    tails = _others(net, lines, s.end, strand, width_px)
+    s, line = graph.strands[strand], lines[strand]
+    heads = _others(graph, lines, s.start, strand, width_px)
+    tails = _others(graph, lines, s.end, strand, width_px)
     if len(heads) != 2 or len(tails) != 2:
         return None
     seen = line.length > _SEEN * width_px
@@ -62,13 +68,13 @@ def explain(net: Network, lines: dict[int, Line], strand: int, width_px: float) 
         return None
     cost, turns, curves, pairs, crossed, together = best
     seen = seen and crossed < _MISFIT and crossed < _BETTER * together
-    meetings = _meetings(curves[0], curves[1], width_px)
-    if len(meetings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
+    crossings = _crossings(curves[0], curves[1], width_px)
+    if len(crossings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
         return None
-    return Explanation(strand, cost, pairs, meetings[0])
+    return Explanation(strand, cost, pairs, crossings[0])
 
 
-def _meetings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
+def _crossings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
     """Where two curves cross between their arms."""
     along = [np.linspace(-0.5, 0.5, 61) * (curve.gap + width_px) for curve in (a, b)]
     first, second = (
@@ -90,8 +96,8 @@ def excess(line: Line, width_px: float) -> float:
     return float(width.mean()) / width_px - 1
 
 
-def _others(net: Network, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
-    return [arm(lines[other], other, end, width_px) for other, end in net.ends_at(node) if other != strand]
+def _others(graph: StrandGraph, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
+    return [arm(lines[other], other, end, width_px) for other, end in graph.ends_at(node) if other != strand]
 
 
 def _apart(curves: list[Through], line: Line) -> FloatArray:

@@ -7,38 +7,38 @@ from __future__ import annotations
 
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.overlaps.separate import unzip_rest, unzip_ribbons
+from wrapit.drawing.bitmap.overlaps.separate import separate_rest, separate_ribbons
 from wrapit.drawing.bitmap.overlaps.short import Explanation, explain, worth_explaining
-from wrapit.drawing.bitmap.strand_graph import Network
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 
 
-def join_crossings(net: Network, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
+def resolve_overlaps(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
     """Makes crossings of forks between which two strokes cross, and parts strokes that only touch."""
-    unzip_ribbons(net, lines, ink, width_px)
+    separate_ribbons(graph, lines, ink, width_px)
     found = []
-    for strand, s in net.strands.items():
-        if s.start == s.end or net.degree(s.start) != 3 or net.degree(s.end) != 3:
+    for strand, s in graph.strands.items():
+        if s.start == s.end or graph.degree(s.start) != 3 or graph.degree(s.end) != 3:
             continue
         if worth_explaining(lines[strand], width_px):
-            explanation = explain(net, lines, strand, width_px)
+            explanation = explain(graph, lines, strand, width_px)
             if explanation is not None:
                 found.append(explanation)
     taken: set[int] = set()
     for explanation in sorted(found, key=lambda e: (e.cost, e.strand)):
         strand = explanation.strand
         arms = {arm.strand for pair in explanation.pairs for arm in pair}
-        if strand not in net.strands or not arms <= net.strands.keys():
+        if strand not in graph.strands or not arms <= graph.strands.keys():
             continue
-        s = net.strands[strand]
+        s = graph.strands[strand]
         if s.start in taken or s.end in taken:
             continue
         taken |= {s.start, s.end}
-        _cross(net, lines, explanation)
-    unzip_rest(net, lines, ink, width_px)
+        _cross(graph, lines, explanation)
+    separate_rest(graph, lines, ink, width_px)
 
 
-def _cross(net: Network, lines: dict[int, Line], explanation: Explanation) -> None:
-    s = net.strands[explanation.strand]
+def _cross(graph: StrandGraph, lines: dict[int, Line], explanation: Explanation) -> None:
+    s = graph.strands[explanation.strand]
     del lines[explanation.strand]
-    node = net.merge([s.start, s.end], explanation.at, [explanation.strand])
-    net.through[node] = tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in explanation.pairs)
+    node = graph.merge([s.start, s.end], explanation.at, [explanation.strand])
+    graph.through[node] = tuple(((a.strand, a.end), (b.strand, b.end)) for a, b in explanation.pairs)

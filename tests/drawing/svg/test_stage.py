@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.drawing.test_bitmaps import degrees
+from tests.drawing.generated import degrees
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace

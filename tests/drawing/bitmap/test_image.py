@@ -1,13 +1,11 @@
-"""Bitmaps of every mode in little memory; files that are something else, cut off or no files at all."""
+"""Bitmaps of every mode in little memory; files that are something else, or cut off."""
 
 from __future__ import annotations
 
 import io
-import os
 import time
 import tracemalloc
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,15 +15,14 @@ from PIL import Image
 
 from tests.drawing.generated import render
 from tests.drawing.mutations import damaged
-from wrapit.config import TracingConfig
-from wrapit.drawing.bitmap import grey
+from tests.drawing.refused import PATIENCE_S, refusal
+from wrapit.drawing.bitmap import image
 from wrapit.drawing.bitmap.image import load_grey
-from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError
 
 SHAPE = (60, 80)
+
 CROSS = [np.array([(10.0, 12), (70, 50)]), np.array([(12.0, 50), (66, 8)])]
-PATIENCE_S = 15.0
 
 
 def ink(shape: tuple[int, int] = SHAPE) -> Image.Image:
@@ -59,11 +56,11 @@ MODES = (
 
 @pytest.mark.parametrize("mode", MODES)
 def test_every_mode_takes_little_memory_beside_the_decoded_picture(mode, monkeypatch):
-    monkeypatch.setattr(grey, "_BAND_PIXELS", 50_000)
+    monkeypatch.setattr(image, "_BAND_PIXELS", 50_000)
     picture = in_mode(ink((900, 1200)), mode)
     tracemalloc.start()
     try:
-        result = grey.grey_of(picture)
+        result = image.grey_of(picture)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
@@ -76,32 +73,22 @@ def test_every_mode_takes_little_memory_beside_the_decoded_picture(mode, monkeyp
 def test_bands_do_not_show_in_the_result(mode, monkeypatch):
     noise = np.random.default_rng(5).integers(0, 90, SHAPE)
     picture = in_mode(Image.fromarray(np.clip(np.asarray(ink()) - noise, 0, 255).astype(np.uint8)), mode)
-    whole = grey.grey_of(picture)
+    whole = image.grey_of(picture)
     for pixels in (500, 1700):
-        monkeypatch.setattr(grey, "_BAND_PIXELS", pixels)
-        assert np.array_equal(grey.grey_of(picture), whole)
+        monkeypatch.setattr(image, "_BAND_PIXELS", pixels)
+        assert np.array_equal(image.grey_of(picture), whole)
 
 
 def test_coloured_ink_is_read_from_the_channel_that_shows_it_best():
     level = np.asarray(ink())
     rgb = np.stack([np.full_like(level, 250), np.full_like(level, 240), level], axis=2)
-    assert np.array_equal(grey.grey_of(Image.fromarray(rgb)), level)
+    assert np.array_equal(image.grey_of(Image.fromarray(rgb)), level)
 
 
 def test_an_animation_shows_its_first_frame(tmp_path):
     frames = [ink(), Image.new("L", (80, 60), 255)]
     frames[0].save(tmp_path / "a.gif", save_all=True, append_images=frames[1:])
     assert np.array_equal(load_grey(tmp_path / "a.gif", 10**6)[0], np.asarray(ink()))
-
-
-def refusal(path: Path) -> str:
-    begin = time.process_time()
-    with pytest.raises(DrawingError) as caught:
-        trace(path, TracingConfig(), 40.0)
-    assert time.process_time() - begin < PATIENCE_S
-    assert caught.value.remedy
-    assert "()" not in str(caught.value)
-    return str(caught.value)
 
 
 @pytest.mark.parametrize("suffix", ["png", "jpg", "bmp", "tif", "webp", "gif"])
@@ -140,27 +127,6 @@ def test_a_picture_under_the_name_of_another_is_read(tmp_path):
     ink().save(tmp_path / "a.png")
     (tmp_path / "a.png").rename(tmp_path / "a.jpg")
     assert np.array_equal(load_grey(tmp_path / "a.jpg", 10**6)[0], np.asarray(ink()))
-
-
-def test_what_is_no_file_is_never_opened(tmp_path):
-    (tmp_path / "folder.png").mkdir()
-    os.mkfifo(tmp_path / "pipe.svg")
-    (tmp_path / "device.json").symlink_to("/dev/zero")
-    (tmp_path / "circle.png").symlink_to(tmp_path / "circle.png")
-    assert "folder" in refusal(tmp_path / "folder.png")
-    assert "pipe" in refusal(tmp_path / "pipe.svg")
-    assert "device" in refusal(tmp_path / "device.json")
-    assert "reached" in refusal(tmp_path / "circle.png")
-    (tmp_path / "a.png").write_bytes(b"")
-    assert "no such drawing" in refusal(tmp_path / "a.png" / "b.png")
-
-
-@pytest.mark.parametrize("name", ["a" * 300 + ".png", "a\0b.svg", "a\ud800.json", "a\nb.svg"])
-def test_names_that_no_file_can_have_are_refused(tmp_path, name):
-    message = refusal(tmp_path / name)
-    message.encode("utf-8")
-    assert len(message) < 600
-    assert "\n" not in message
 
 
 def saved(kind: str) -> bytes:

@@ -6,60 +6,23 @@ import itertools
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from unittest import mock
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from shapely import LineString, Point, get_parts, polygonize
 
+from tests.drawing.svg.curves import FEW, SEEDS, drawing, line, through
 from wrapit.config import TracingConfig
 from wrapit.drawing.stage import trace
 from wrapit.drawing.svg import intersections
-from wrapit.drawing.svg.duplicates import without_coincident
-from wrapit.drawing.svg.neighbours import Parallels
 from wrapit.drawing.svg.planar import Curve, Planar, planar
 from wrapit.drawing.svg.tidying import rejoined
 from wrapit.errors import DrawingError
 from wrapit.geometry import BezierChain, FloatArray
 
 CORNER_RAD = 0.6
-FEW = settings(max_examples=30, deadline=None)
-SEEDS = st.integers(0, 2**32 - 1)
-
-
-def line(start: object, end: object) -> FloatArray:
-    a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
-    return np.stack([a, a + (b - a) / 3, b - (b - a) / 3, b])
-
-
-def through(points: FloatArray) -> Curve:
-    """The polyline through points; closed where it ends at its start."""
-    cubics = np.array([line(a, b) for a, b in itertools.pairwise(points)])
-    return Curve(cubics, closed=bool(np.array_equal(points[0], points[-1])))
-
-
-def wavy(rng: np.random.Generator, closed: bool) -> Curve:
-    """A smooth curve across a field of 100 by 100."""
-    knots, slopes = rng.uniform(0, 100, (4, 2)), rng.normal(0, 20, (4, 2))
-    ends = [*range(4), 0] if closed else range(4)
-    cubics = [
-        np.stack([knots[i], knots[i] + slopes[i], knots[j] - slopes[j], knots[j]])
-        for i, j in itertools.pairwise(ends)
-    ]
-    return Curve(np.array(cubics), closed)
-
-
-def drawing(rng: np.random.Generator) -> list[Curve]:
-    """Lines, polylines, smooth curves and loops, in general position."""
-    kinds = [
-        lambda: through(rng.uniform(0, 100, (2, 2))),
-        lambda: through(rng.uniform(0, 100, (5, 2))),
-        lambda: wavy(rng, closed=False),
-        lambda: wavy(rng, closed=True),
-    ]
-    return [kinds[rng.integers(len(kinds))]() for _ in range(rng.integers(1, 6))]
 
 
 def components(graph: Planar) -> int:
@@ -192,26 +155,6 @@ def test_a_stroke_drawn_in_parts_becomes_one_however_they_lie(seed, closed, coun
     assert piece.curve.length == pytest.approx(sum(BezierChain(part).length for part in parts))
     assert (piece.start == piece.end) is closed
     assert rejoined([piece], turn) == [piece]
-
-
-@FEW
-@given(SEEDS)
-def test_coincident_strokes_are_those_of_comparing_all_pairs(seed):
-    rng = np.random.default_rng(seed)
-    width = float(rng.choice([0.1, 1.0, 5.0]))
-    curves = drawing(rng)
-    for curve in [curves[k] for k in rng.integers(len(curves), size=3)]:
-        # Copies beside the original, within reach or not, run the other way, or only a part.
-        shifted = curve.cubics + rng.choice([0, 0.1, 0.28, 0.4]) * width
-        curves.append(
-            Curve(shifted, curve.closed) if rng.integers(2) else Curve(shifted[:2, ::-1][::-1], False)
-        )
-    found = without_coincident(curves, width)
-    with mock.patch.object(Parallels, "beside", lambda self, _: self._courses):
-        plain = without_coincident(curves, width)
-    assert [kept.closed for kept in found[0]] == [kept.closed for kept in plain[0]]
-    assert all(np.array_equal(a.cubics, b.cubics) for a, b in zip(found[0], plain[0], strict=True))
-    assert [length for _, length in found[1]] == [length for _, length in plain[1]]
 
 
 def test_an_end_touches_a_curve_that_stands_still_there():

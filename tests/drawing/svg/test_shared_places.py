@@ -1,19 +1,17 @@
-"""The parts of cutting curves into a planar graph, each against slow plain code."""
+"""Places that are one, against slow plain code, and how few points are compared."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.test_planar import FEW, SEEDS, wavy
-from wrapit.drawing.svg.cutting import stretches
+from tests.drawing.svg.curves import FEW, SEEDS
+from wrapit.drawing.svg import shared_places
 from wrapit.drawing.svg.shared_places import Places
 from wrapit.geometry import FloatArray
-from wrapit.geometry.bezier import evaluate, split
 
 
 class PlainPlaces:
@@ -61,25 +59,14 @@ def test_places_by_grid_are_those_of_comparing_all(seed, tolerance, offset):
     assert all(np.array_equal(quick.place(number), place) for number, place in plain.place.items())
 
 
-@FEW
-@given(SEEDS)
-def test_stretches_cut_at_once_are_those_cut_one_by_one(seed):
-    rng = np.random.default_rng(seed)
-    cubics = wavy(rng, closed=True).cubics
-    count = len(cubics)
-    starts = rng.choice([rng.uniform(0, count, 8), rng.integers(0, count, 8).astype(float)])
-    ends = starts + rng.choice([0, 1e-8, 0.3, 1, 2.5, count], 8)
-    for start, end, found in zip(starts, ends, stretches(cubics, starts, ends), strict=True):
-        if end - start <= 1e-7:
-            assert found is None
-            continue
-        assert found is not None
-        assert np.array_equal(found[1:, 0], found[:-1, 3])
-        for at, point in ((start, found[0, 0]), (end, found[-1, 3])):
-            k = math.floor(at)
-            assert evaluate(cubics[k % count][None], np.array([at - k]))[0, 0] == pytest.approx(point)
-        if math.floor(start) + 1 >= end:
-            low, high = start - math.floor(start), end - math.floor(start)
-            left = split(cubics[math.floor(start) % count][None], high)[0] if high < 1 else None
-            whole = cubics[math.floor(start) % count][None] if left is None else left
-            assert np.array_equal(found, split(whole, low / high)[1] if low > 0 else whole)
+def test_points_in_the_grid_are_compared_with_few_others(monkeypatch):
+    compared = []
+    sqrt = math.sqrt
+    monkeypatch.setattr(shared_places.math, "sqrt", lambda value: compared.append(1) or sqrt(value))
+    rng = np.random.default_rng(6)
+    known = shared_places.Places(1.0)
+    for point in rng.uniform(0, 100, (20_000, 2)):
+        known.find(point)
+    # Points that are kept lie farther apart than the tolerance: at most 4 in a cell, 4 cells around each.
+    assert len(compared) < 16 * 20_000
+    assert len(known.all()) > 4_000

@@ -1,0 +1,71 @@
+"""Which arms of a junction continue each other: crossings, forks, stars and curls get their degree."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.drawing.bitmap.figures import (
+    ACROSS,
+    CENTRE,
+    SHIFTS,
+    SIZE_PX,
+    TURNS,
+    WIDTHS,
+    few,
+    junction_near,
+    line,
+    turned,
+)
+from tests.drawing.generated import degrees
+
+
+@few
+@given(st.floats(15, 90), WIDTHS, TURNS, SHIFTS)
+def test_two_strokes_cross_in_one_junction(traced, angle, width, turn, shift):
+    curves = [turned(ACROSS, turn, shift), turned(turned(ACROSS, math.radians(angle)), turn, shift)]
+    drawing, _ = traced(curves, width)
+    assert degrees(drawing) == [1, 1, 1, 1, 4]
+    at = junction_near(drawing, 4)
+    assert np.linalg.norm(at - CENTRE - np.array(shift)) < 0.1 * width
+
+
+@few
+@given(st.floats(30, 90), WIDTHS, TURNS, SHIFTS)
+def test_a_stroke_that_ends_on_another_makes_a_t(traced, angle, width, turn, shift):
+    stem = turned(line((CENTRE, CENTRE), (SIZE_PX - 50, CENTRE)), math.radians(angle))
+    drawing, _ = traced([turned(ACROSS, turn, shift), turned(stem, turn, shift)], width)
+    assert degrees(drawing) == [1, 1, 1, 3]
+    assert np.linalg.norm(junction_near(drawing, 3) - CENTRE - np.array(shift)) < 0.15 * width
+
+
+@few
+@given(st.floats(90, 200), WIDTHS, TURNS)
+def test_a_stroke_that_leaves_tangentially_is_one_junction(traced, radius, width, turn):
+    sweep = np.linspace(0, min(1.4, 150 / radius), 60)
+    arc = CENTRE + radius * np.column_stack([np.sin(sweep), 1 - np.cos(sweep)])
+    drawing, _ = traced([turned(ACROSS, turn), turned(arc, turn)], width)
+    assert degrees(drawing) == [1, 1, 1, 3]
+
+
+@few
+@given(st.integers(3, 7), WIDTHS, TURNS, SHIFTS)
+def test_a_star_is_one_junction(traced, rays, width, turn, shift):
+    ray = line((CENTRE, CENTRE), (SIZE_PX - 50, CENTRE))
+    drawing, _ = traced(
+        [turned(turned(ray, k * 2 * math.pi / rays), turn, shift) for k in range(rays)], width
+    )
+    assert degrees(drawing) == [1] * rays + [rays]
+
+
+@few
+@given(WIDTHS, TURNS, SHIFTS)
+def test_a_curl_crosses_itself_once(traced, width, turn, shift):
+    t = np.linspace(-1.35, 1.35, 200)
+    curl = CENTRE + np.column_stack([120 * (t**3 - t), 120 * t**2 - 80])
+    drawing, _ = traced([turned(curl, turn, shift)], width)
+    assert degrees(drawing) == [1, 1, 4]
+    assert any(segment.start == segment.end for segment in drawing.segments)

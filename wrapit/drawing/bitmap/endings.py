@@ -1,0 +1,138 @@
+"""Where strokes end and meet: at the point that their clean parts point at, or at the edge of the ink."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wrapit.drawing.bitmap.arms import Arm
+from wrapit.drawing.bitmap.centre_lines import sample
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.pairing import Through, through
+from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.polynomials import angle, horner, nearest_along
+
+# When does a single arm leave along the stroke that goes through? Branches of curls and leaves are drawn
+# tangentially, and the arm alone doesn't tell 10 degrees from none; 14 or 26 make no difference.
+_SNAP_RAD = math.radians(20)
+# How much do a pair's curve, a single arm and the skeleton's own place say about where a junction is? Single
+# arms are extrapolated, a pair is interpolated; the place only keeps the sum regular, and hardly that where
+# two curves fix the point already, even at an acute angle.
+_PAIR_WEIGHT, _SINGLE_WEIGHT = 1.0, 0.3
+_PRIOR_OF_ONE, _PRIOR_OF_TWO = 0.01, 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Ending:
+    """How a strand leaves a junction: outward unit tangent, points that lead to the cut, and the cut."""
+
+    tangent: FloatArray
+    lead: FloatArray
+    cut: int
+
+
+def place(
+    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]
+) -> tuple[FloatArray, list[Ending]]:
+    """The point where the arms meet, and how each leaves it; `pairs` of arms continue each other.
+
+    The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
+    to the extrapolated single arms (0.3), and weakly to `around`.
+    """
+    curves = [through(arms[i], arms[j]) for i, j in pairs]
+    single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
+    point: FloatArray = around
+    feet = [0.0] * len(curves)
+    # Two curves fix the point, even where they cross at an acute angle.
+    prior = _PRIOR_OF_ONE if len(curves) < 2 else _PRIOR_OF_TWO
+    for _ in range(3):
+        pulls = []
+        for k, curve in enumerate(curves):
+            feet[k] = curve.foot(point, feet[k])
+            pulls.append((_PAIR_WEIGHT, *horner(curve.terms, feet[k])))
+        for k in single:
+            along = nearest_along(arms[k].terms, point, 0.0, -4 * arms[k].width_px, 0.0)
+            pulls.append((_SINGLE_WEIGHT, *horner(arms[k].terms, along)))
+        point = _pulled(point, prior, pulls)
+    endings: dict[int, Ending] = {}
+    for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):
+        foot_now = curve.foot(point, foot)
+        direction = curve.at(foot_now)[1]
+        offset = point - curve.at(foot_now)[0]
+        endings[i] = Ending(-direction, _lead(curve, foot_now, -curve.gap / 2, offset, arms[i]), arms[i].cut)
+        endings[j] = Ending(direction, _lead(curve, foot_now, curve.gap / 2, offset, arms[j]), arms[j].cut)
+    through_tangents = [endings[k].tangent for k in endings]
+    for k in single:
+        endings[k] = _single_ending(arms[k], point, through_tangents)
+    return point, [endings[k] for k in range(len(arms))]
+
+
+def _pulled(
+    point: FloatArray, prior: float, pulls: list[tuple[float, float, float, float, float]]
+) -> FloatArray:
+    """The point nearest to lines, each with a weight, a place and a direction, and weakly to itself."""
+    xx = yy = prior
+    xy, right_x, right_y = 0.0, prior * float(point[0]), prior * float(point[1])
+    for weight, x, y, dx, dy in pulls:
+        across = weight * (dx * y - dy * x)
+        xx, xy, yy = xx + weight * dy * dy, xy - weight * dx * dy, yy + weight * dx * dx
+        right_x, right_y = right_x - dy * across, right_y + dx * across
+    determinant = xx * yy - xy * xy
+    return np.array([yy * right_x - xy * right_y, xx * right_y - xy * right_x]) / determinant
+
+
+def _extrapolated(single: Arm, point: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Place and direction of the arm's model nearest to a point before its cut."""
+    return single.at(nearest_along(single.terms, point, 0.0, -4 * single.width_px, 0.0))
+
+
+def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -> Ending:
+    on, direction = _extrapolated(single, point)
+    start = single.points[0]
+    gap = float(np.linalg.norm(start - point))
+    for tangent in tangents:
+        if angle(tangent, direction) < _SNAP_RAD:
+            return Ending(tangent, np.zeros((0, 2)), single.cut)
+    if np.linalg.norm(on - point) > 0.3 * gap:
+        # The extrapolation misses the junction: a plain line from there is the better guess.
+        direction = unit(start - point) if gap > 1e-6 else direction
+    return Ending(direction, np.zeros((0, 2)), single.cut)
+
+
+def _lead(curve: Through, foot: float, cut: float, offset: FloatArray, to: Arm) -> FloatArray:
+    """Points on the curve between the junction and the cut, the junction's offset fading out."""
+    count = int(abs(cut - foot) / max(to.width_px / 4, 1.0))
+    if count < 2 or (cut - foot) * cut <= 0:
+        return np.zeros((0, 2))
+    share = np.arange(1, count) / count
+    powers = (foot + share * (cut - foot))[:, None] ** np.arange(len(curve.coefficients))
+    return powers @ curve.coefficients + (1 - share)[:, None] * offset
+
+
+def place_end(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
+    """The end point of a stroke with a round cap, and its outward (into the stroke) tangent.
+
+    Marches from the last clean point along the stroke's own curve to the edge of the ink and steps back
+    by half the width.
+    """
+    width = arm.width_px
+    steps = np.arange(0.0, 3 * width, 0.5)
+    a, b, _ = arm.model
+    # The curve goes on as its tangent, a quadratic would curl.
+    start, slope = a, b / max(float(np.linalg.norm(b)), 1e-9)
+    levels = sample(ink.grey, start[None], -slope[None], steps)[0] - ink.half
+    light = np.flatnonzero(levels > 0)
+    if not len(light) or light[0] == 0:
+        return start, Ending(slope, np.zeros((0, 2)), arm.cut)
+    at = int(light[0])
+    before, after = float(levels[at - 1]), float(levels[at])
+    edge = steps[at - 1] + 0.5 * (-before / (after - before))
+    back = edge - width / 2
+    if back >= 0:
+        return start - back * slope, Ending(slope, np.zeros((0, 2)), arm.cut)
+    inside = min(-back, arm.length / 2)
+    first = int(np.searchsorted(arm.along, inside, side="right"))
+    place, direction = arm.at(inside)
+    return place, Ending(direction, np.zeros((0, 2)), arm.cut + first)
