@@ -60,8 +60,13 @@ def refuse_crowd(ink: Ink, skeleton: Skeleton, where: str) -> None:
         raise _no_line_drawing(ink, where)
 
 
-def refuse_other_pictures(ink: Ink, skeleton: Skeleton, graph: StrandGraph, where: str) -> None:
-    """Raises DrawingError for photos, noise, filled shapes, dots and pages of text."""
+def refuse_other_pictures(
+    ink: Ink, skeleton: Skeleton, graph: StrandGraph, where: str, *, outlined: bool
+) -> None:
+    """Raises DrawingError for photos, noise, filled shapes, dots and pages of text.
+
+    `outlined` says that the ink is the outline of what was filled, as `tracing.filled` asks for.
+    """
     low, middle, high, ninety = np.percentile(skeleton.distance, [25, 50, 75, 90])
     uneven = (high - low) / middle
     length = _PIXEL_LENGTH * len(skeleton.pixels)
@@ -78,7 +83,9 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, graph: StrandGraph, wher
     longest = lengths[0] if lengths else 0.0
     spread = float(np.ptp(skeleton.pixels, axis=0).max()) + skeleton.width_px
     if skeleton.width_px > _THICK_SHARE * spread and len(lengths) < _PIECES:
-        raise _filled(where, f"the ink is {skeleton.width_px:.0f} px thick and {spread:.0f} px long")
+        raise _filled(
+            where, f"the ink is {skeleton.width_px:.0f} px thick and {spread:.0f} px long", outlined
+        )
     if longest < _LONGEST * skeleton.width_px:
         raise DrawingError(
             "the picture holds only dots and short strokes, no lines", where, "connect them with a pen"
@@ -91,7 +98,7 @@ def refuse_other_pictures(ink: Ink, skeleton: Skeleton, graph: StrandGraph, wher
             "draw on plain paper, or with a pen much darker than the ruling",
         )
     if ninety > _FAT_WIDTH * middle or fat > _FAT_AREA:
-        raise _filled(where, f"{100 * fat:.0f} % of the ink is much thicker than the lines")
+        raise _filled(where, f"{100 * fat:.0f} % of the ink is much thicker than the lines", outlined)
     if ink.mask.mean() > _INK_SHARE:
         raise DrawingError(
             f"ink covers {100 * ink.mask.mean():.0f} % of the picture", where, "draw lines on empty paper"
@@ -147,7 +154,10 @@ def _no_line_drawing(ink: Ink, where: str) -> DrawingError:
     )
 
 
-def _filled(where: str, detail: str) -> DrawingError:
+def _filled(where: str, detail: str, outlined: bool) -> DrawingError:
+    if outlined:
+        problem = f"even the outlines of the filled shapes are no lines ({detail})"
+        return DrawingError(problem, where, "draw their outlines by hand, larger and with a thin pen")
     return DrawingError(
         f"the drawing has filled shapes ({detail})",
         where,

@@ -104,7 +104,7 @@ def _traced(
     radius = Radii(skeleton.pixels, skeleton.distance)
     graph.rejoin_all()
     tidy(graph, radius, width_px)
-    refuse_other_pictures(ink, skeleton, graph, str(path))
+    refuse_other_pictures(ink, skeleton, graph, str(path), outlined=tracing.filled == "outline")
     contract_short(graph, radius, 0.35)
     tidy(graph, radius, width_px)
     drop_crumbs(graph, width_px)

@@ -60,9 +60,10 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
 def _strokes(root: Any, tracing: TracingConfig, path: Path) -> Strokes:
     curves: list[Curve] = []
     widths: list[float] = []
-    filled = parts = 0
+    filled = parts = drawn = 0
     for shape in _shapes(root):
         stroked = _paints(shape.stroke)
+        drawn += stroked
         if not stroked:
             if not _paints(shape.fill) or _is_ground(shape, root):
                 continue
@@ -80,13 +81,19 @@ def _strokes(root: Any, tracing: TracingConfig, path: Path) -> Strokes:
             width = float(shape.implicit_stroke_width or shape.stroke_width * scale)
             widths += [width] * len(found)
     if not curves:
+        if drawn:
+            problem = f"the drawing's lines ({drawn} in all) have no length"
+            raise DrawingError(problem, str(path), "draw at least one line that is longer than a dot")
         if filled:
+            shapes = "1 filled shape" if filled == 1 else f"{filled} filled shapes"
             raise DrawingError(
-                f"the drawing has {filled} filled shapes and no stroked lines",
+                f"the drawing has {shapes} and no stroked lines",
                 str(path),
                 "draw centre lines with a stroke, or set tracing.filled to outline",
             )
-        raise DrawingError("the drawing has no stroked lines", str(path), "give the lines a stroke")
+        raise DrawingError(
+            "the drawing has no stroked lines that are shown", str(path), "give the lines a stroke"
+        )
     usual = float(np.median(widths)) if widths else None
     return Strokes(
         curves, usual if usual and math.isfinite(usual) and usual > 0 else None, filled, _mm_per_px(root)
