@@ -22,7 +22,8 @@ HOUSE = ROOT / "wrapit"
 MOST_MODULES = 15
 MOST_LINES = 300
 # Names that mean the same in every room. Those in config/ mirror the keys of the YAML.
-SHARED = {"__init__", "stage", "model", "findings", "json_file", "plan"}
+# `kind`, `page` and `numbers` are the face of each kind of jig: what it is, and what guide and report say.
+SHARED = {"__init__", "stage", "model", "findings", "json_file", "plan", "page", "numbers", "kind"}
 # Imported by a name of its own, but a part of another: pydantic pins it to the last digit.
 PART_OF = {"pydantic-core": "pydantic"}
 
@@ -74,7 +75,10 @@ def left_out(house: Path) -> Iterator[str]:
 
 
 # Rooms whose constants all say which question they answer, or what set them.
-EXPLAINED = ("kernel", "exports", "instructions", "cli", "config")
+EXPLAINED = (
+    "config", "geometry", "drawing", "decomposition", "wires", "kernel", "jig", "exports", "instructions",
+    "pipeline", "cli",
+)  # fmt: skip
 CONSTANT = re.compile(r"_?[A-Z][A-Z0-9_]+(?:, _?[A-Z][A-Z0-9_]+)*(?:: .*?)? = ")
 
 

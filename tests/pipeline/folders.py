@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from wrapit.pipeline.folder import prepare, put_in_place, renamed_beside_others, staged
-from wrapit.pipeline.ownership import FORMAT, REPORT, artifacts_in
+from wrapit.pipeline.output.folder import prepare, put_in_place, renamed_beside_others, staged
+from wrapit.pipeline.output.ownership import FORMAT, REPORT, artifacts_in
 from wrapit.pipeline.report import artifact_list, to_json
 
 PIECE = (

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from tests.pipeline.folders import held, listed, put
 from wrapit.errors import ConfigError, ExportError
-from wrapit.pipeline.folder import followed, prepare, put_in_place, staged
-from wrapit.pipeline.ownership import FORMAT, REPORT, is_whole, own_report
+from wrapit.pipeline.output.folder import followed, prepare, put_in_place, staged
+from wrapit.pipeline.output.ownership import FORMAT, REPORT, is_whole, own_report
 
 NAMES = ("a.step", "b.stl", "c.svg", "plain", "a.new.step", "b.new.stl", "b.new-2.stl", ".hidden")
 DATA = st.sampled_from((b"", b"one", b"two", b"\0\xff"))

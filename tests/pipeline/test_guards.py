@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from wrapit.pipeline.guards import signals_held
+from wrapit.pipeline.output.guards import signals_held
 
 
 class Ended(BaseException):

@@ -13,7 +13,7 @@ import pytest
 
 from tests.pipeline.folders import held, listed, put
 from wrapit.errors import ConfigError
-from wrapit.pipeline.folder import prepare
+from wrapit.pipeline.output.folder import prepare
 
 OLD = {"a.step": b"one", "b.stl": b"one", "gone.svg": b"one"}
 NEW = {"a.step": b"two", "b.stl": b"one", "c.svg": b"two"}

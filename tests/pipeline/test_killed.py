@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 from tests.pipeline.folders import held, written_piece
-from wrapit.pipeline.folder import prepare, staged
-from wrapit.pipeline.ownership import is_whole, listed_files, own_report
+from wrapit.pipeline.output.folder import prepare, staged
+from wrapit.pipeline.output.ownership import is_whole, listed_files, own_report
 
 pytestmark = pytest.mark.skipif(
     not Path("/proc/self/environ").exists(), reason="needs /proc to see processes"

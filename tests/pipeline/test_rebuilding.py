@@ -9,7 +9,7 @@ import pytest
 
 from tests.pipeline.folders import held, listed, written_piece
 from wrapit.pipeline.build import build
-from wrapit.pipeline.ownership import REPORT
+from wrapit.pipeline.output.ownership import REPORT
 from wrapit.pipeline.stages import STAGES, Stage
 from wrapit.pipeline.summary import summary_lines
 

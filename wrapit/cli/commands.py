@@ -97,7 +97,7 @@ def build(
 
 def _write_depfile(path: Path, result: Build) -> None:
     from wrapit.pipeline.depfile import write_depfile
-    from wrapit.pipeline.ownership import REPORT
+    from wrapit.pipeline.output.ownership import REPORT
 
     assert result.folder is not None, "a build has a folder"
     names = {a[key] for a in result.report["artifacts"] for key in ("path", "instead_of") if key in a}

@@ -18,7 +18,6 @@ from wrapit.geometry.bspline import BSpline, from_chain
 PIECE_MM, PIECE_RAD = 4.0, 0.5
 STEPS = 12  # of integration in each piece
 # Gauss's rule with three nodes, for the steps.
-
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 _NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
 # Integrals of the three Lagrange polynomials from 0 to each node (collocation at Gauss points).

@@ -11,8 +11,8 @@ from typing import Any
 from wrapit.config import load_config, named_after
 from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
-from wrapit.pipeline.folder import followed, prepare, put_in_place, renamed_beside_others, staged
-from wrapit.pipeline.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
+from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renamed_beside_others, staged
+from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
 from wrapit.pipeline.remedies import what_would_do
 from wrapit.pipeline.stages import run_stages
 from wrapit.pipeline.work import STAGES, Progress, Stage, Work

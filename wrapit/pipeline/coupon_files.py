@@ -10,6 +10,7 @@ from wrapit.errors import ExportError
 from wrapit.jig.coupons import PrintedCoupon, clearance_coupon, kerf_coupon
 from wrapit.pipeline.worker import Worker
 
+# Two flat plates of a few walls take a second or two; this is for a machine that is busy or slow.
 TIMEOUT_S = 120.0
 
 

@@ -16,6 +16,7 @@ from typing import Final
 from wrapit.errors import ExportError
 from wrapit.pipeline.textfile import write_whole
 
+# What make takes for something else in a name, and how it is said instead.
 _VARIABLES: Final = {
     "$": "$$",
     "=": "$(wrapit.equals)",  # else the line would set a variable
@@ -23,6 +24,7 @@ _VARIABLES: Final = {
     "\t": "$(wrapit.tab)",
     "\n": "$(wrapit.newline)",
 }
+# These variables, for characters that have no escape.
 _HEAD: Final = """\
 wrapit.equals := =
 wrapit.semicolon := ;

@@ -13,6 +13,7 @@ from wrapit.pipeline.solids import make_solids, write_wires
 from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import Worker
 
+# What the names of files of the other earring end in.
 MIRRORED: Final = "-mirrored"
 
 

@@ -10,6 +10,7 @@ from wrapit.config import Config
 from wrapit.errors import WrapItError
 from wrapit.units import awg_diameter_mm
 
+# How does the search for a size go on? In steps of 1.4, up to what the config takes.
 _GROWTH = 1.4
 _LARGEST_MM = 1000
 # The search for the smallest size ends within this share of it.

@@ -16,10 +16,11 @@ from wrapit.decomposition.json_file import decomposition_summary
 from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
-from wrapit.pipeline.ownership import FORMAT, Artifact
+from wrapit.pipeline.output.ownership import FORMAT, Artifact
 from wrapit.wires.model import JumpRing, Wire
 from wrapit.wires.springback import Overbent
 
+# What identifies a build: with these the same, all its files are.
 HEAD_KEYS = ("format", "name", "version", "config_sha256", "drawing_sha256")
 
 

@@ -12,6 +12,7 @@ from wrapit.jig.made import Made, Wires
 from wrapit.materials import METALS
 from wrapit.wires.model import JumpRing
 
+# What loads for seconds, while drawing and wires are made.
 PRELOAD = ("wrapit.kernel.files", "wrapit.jig.printed.stage")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from wrapit.pipeline.build import Build
 
+# In the order in which they are told.
 LEVELS = ("error", "warning", "note")
 
 

@@ -17,6 +17,7 @@ from wrapit.jig.made import Made
 from wrapit.wires.model import JumpRing, Wire
 
 Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
+# In the order in which they run.
 STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
 Progress = Callable[[str], None]
 

@@ -17,7 +17,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from wrapit.errors import KernelError, WrapItError
-from wrapit.pipeline.guards import let_through, signals_held
+from wrapit.pipeline.output.guards import let_through, signals_held
 
 
 class Worker:

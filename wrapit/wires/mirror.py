@@ -11,6 +11,7 @@ import numpy as np
 from wrapit.geometry import BSpline
 from wrapit.wires.model import JumpRing, Side, Wire
 
+# What a mirror with a vertical axis does to sides and to coordinates.
 _OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left", "both": "both"}
 _FLIP = np.array([-1.0, 1.0])
 

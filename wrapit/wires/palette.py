@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import colorsys
 
+# Hues far apart, each dark enough for white paper.
 _FIRST = (
     "#c1440e", "#1f6fb2", "#2e8540", "#8a3ffc", "#b8860b", "#0f8b8d", "#c2185b", "#5d4037",
     "#3949ab", "#6b8e23", "#d2691e", "#7b1fa2",

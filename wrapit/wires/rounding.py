@@ -33,6 +33,7 @@ class Blend:
     deviation_mm: float
 
 
+# What a corner is that stays as drawn.
 NO_BLEND: Final = Blend((), 0.0, math.inf, 0.0)
 
 

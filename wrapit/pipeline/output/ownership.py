@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+# What tells that a folder is wrapit's: a report of this name and format.
 REPORT: Final = "report.json"
 FORMAT: Final = "wrapit-report/1"
+# Of a name between two slashes, on all common systems.
 LONGEST_NAME_BYTES: Final = 255
 
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from wrapit.pipeline.ownership import REPORT, is_unchanged, listed_files, own_report
+from wrapit.pipeline.output.ownership import REPORT, is_unchanged, listed_files, own_report
 
 
 def move_in(ready: Path, folder: Path) -> None:

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
+# Signals that end a program and can be held: closing a terminal, Ctrl-C, and being asked to end.
 _ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP")
 
 

@@ -21,9 +21,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from wrapit.errors import ConfigError, ExportError, Finding
-from wrapit.pipeline.guards import lock_on, signals_held, unlock
-from wrapit.pipeline.moving import move_in, shut_out
-from wrapit.pipeline.ownership import (
+from wrapit.pipeline.output.guards import lock_on, signals_held, unlock
+from wrapit.pipeline.output.moving import move_in, shut_out
+from wrapit.pipeline.output.ownership import (
     LONGEST_NAME_BYTES,
     REPORT,
     is_unchanged,
@@ -32,6 +32,7 @@ from wrapit.pipeline.ownership import (
     own_report,
 )
 
+# What helps wherever a folder can't be used.
 OTHER_FOLDER = "choose another folder with -o"
 # Of longer names a hash tells the rest: with the random part, a name may have 255 bytes.
 _LONGEST_PREFIX_BYTES = 120
