@@ -16,7 +16,7 @@ from wrapit.config import JigConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Loop
 from wrapit.geometry.outlines.polygons import polygon_of, region_area_mm2
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.grouping import fewest_groups
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.stage import build_jig
@@ -80,12 +80,12 @@ def test_functional_faces_are_exact(clearance: float) -> None:
     wires = wires_of([arcs((0, 0), 0, (9, 180), (5, -200), (14, 90))], settings)
     jigs, _ = build_jig(wires, settings)
     (jig,) = jigs.jigs
-    course = Course.of(wires, settings)
+    channels = Channels.of(wires, settings)
     for support in jig.support:
-        _, points, normals, _ = course.stations(support.turn, 0.05)
+        _, points, normals, _ = channels.stations(support.turn, 0.05)
         side = 1 if support.turn.inside == "left" else -1
         faces = shapely.union_all([polygon_of(wall, 1e-4).boundary for wall in jig.walls])
-        apart = shapely.distance(shapely.points(points + side * course.reach_mm * normals), faces)
+        apart = shapely.distance(shapely.points(points + side * channels.reach_mm * normals), faces)
         assert np.median(apart) < 1e-3
         assert (apart < 1e-3).mean() == pytest.approx(support.share, abs=0.03)
 
@@ -220,12 +220,12 @@ def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPat
 
     wires = wires_of([circle(11)])
     plan, _ = plan_jig(wires, JigConfig())
-    course = Course.of(wires, JigConfig())
-    good = wall_face(course, plan.walls[0])
+    channels = Channels.of(wires, JigConfig())
+    good = wall_face(channels, plan.walls[0])
     assert good.exact
-    nearer = Outliner.of(course.chains, course.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
+    nearer = Outliner.of(channels.chains, channels.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
     monkeypatch.setattr(Outliner, "region", lambda self, polygon: nearer)
-    bad = wall_face(course, plan.walls[0])
+    bad = wall_face(channels, plan.walls[0])
     assert not bad.exact
     assert bad.gap_mm > 0.2 - 1e-3
     assert region_area_mm2(bad.region) == pytest.approx(region_area_mm2(good.region), rel=1e-3)

@@ -12,7 +12,7 @@ from wrapit.config import GuideConfig, JigConfig, WireConfig
 from wrapit.errors import JigError
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.instructions.plan import plan_guide
-from wrapit.jig.printed.kind import handling
+from wrapit.jig.printed.printed_kind import handling
 from wrapit.jig.printed.seats import mirrored_seats
 from wrapit.jig.printed.stage import build_jig
 

@@ -10,7 +10,7 @@ import shapely
 from tests.jig.metal import AWG18_MM, arcs, circle, config, line, only, wires_of
 from wrapit.config import JigConfig
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.findings import support_findings
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.support import (
@@ -39,18 +39,20 @@ def test_crossing_wire_opens_a_wall() -> None:
 def test_a_stretch_needs_one_wall_and_is_no_turn() -> None:
     chains = [arcs((0, 0), 0, (9, 180), (60, 0))]
     wires, jig = wires_of(chains), only(chains)
-    course = Course.of(wires, JigConfig())
+    channels = Channels.of(wires, JigConfig())
     stretch = next(turn for turn in wires[0].turns if turn.inside == "both")
     below = [wall for wall in jig.walls if polygon_of(wall, 0.01).bounds[1] < 18]
     assert len(below) < len(jig.walls)  # one wall stands above the stretch, outside the bend
-    one_sided, bare = turn_support(course, below), turn_support(course, ())
+    one_sided, bare = turn_support(channels, below), turn_support(channels, ())
     assert stretch_support(one_sided) == pytest.approx(1.0)
     assert total_support(one_sided) == total_support(jig.support) > 0.95
     assert stretch_support(bare) == total_support(bare) == 0.0
     plan, _ = plan_jig(wires, JigConfig())
-    weak = {finding.code: finding.where for finding in support_findings(course, plan.pins, bare, JigConfig())}
+    weak = {
+        finding.code: finding.where for finding in support_findings(channels, plan.pins, bare, JigConfig())
+    }
     assert set(weak) == {"weak-turn", "weak-stretch"}
-    assert weak["weak-stretch"] == course.place(stretch)
+    assert weak["weak-stretch"] == channels.place(stretch)
 
 
 def test_holes_make_way_for_the_walls_of_turns() -> None:
@@ -78,6 +80,6 @@ def test_measured_gap_sees_a_wall_that_is_too_near() -> None:
     near, wide = config(clearance="0.2 mm"), config(clearance="0.3 mm")
     wires = wires_of([arcs((0, 0), 0, (9, 180))], near)
     plan, _ = plan_jig(wires, near)
-    walls = [Course.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
-    gap, _ = min_wall_to_wire_mm(Course.of(wires, wide), walls)
+    walls = [Channels.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
+    gap, _ = min_wall_to_wire_mm(Channels.of(wires, wide), walls)
     assert gap == pytest.approx(0.2, abs=1e-4)

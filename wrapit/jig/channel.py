@@ -24,8 +24,11 @@ SIDES = {"left": (1.0,), "right": (-1.0,), "both": (1.0, -1.0)}
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
-    """The wires that share one jig. All have one diameter; ValueError otherwise, or without any wire."""
+class Channels:
+    """What the wires that share one jig take up, each with its clearance.
+
+    All have one diameter; ValueError otherwise, or without any wire.
+    """
 
     wires: tuple[Wire, ...]
     clearance_mm: float
@@ -35,9 +38,9 @@ class Course:
             raise ValueError("a jig takes one or more wires of one diameter")
 
     @staticmethod
-    def of(wires: tuple[Wire, ...], config: JigConfig) -> Course:
-        """The wires' course with the configured clearance."""
-        return Course(wires, config.clearance)
+    def of(wires: tuple[Wire, ...], config: JigConfig) -> Channels:
+        """The wires' channels with the configured clearance."""
+        return Channels(wires, config.clearance)
 
     @property
     def diameter_mm(self) -> float:
@@ -60,7 +63,7 @@ class Course:
         return Outliner.of(self.chains, self.reach_mm, CHANNEL_SLACK_MM)
 
     @cached_property
-    def channels(self) -> Any:
+    def area(self) -> Any:
         """Everything that a wire and its clearance take up, as shapely geometry, CHANNEL_PAD_MM too wide."""
         import shapely
 

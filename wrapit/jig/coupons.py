@@ -11,6 +11,7 @@ from wrapit.geometry import Line, Loop, Region
 from wrapit.geometry.outlines.moves import reversed_loop, rounded_rectangle
 from wrapit.jig.contours import Contour
 from wrapit.jig.lettering import engraved_text
+from wrapit.jig.wall_height import wall_height_mm
 
 if TYPE_CHECKING:
     from shapely import LinearRing
@@ -85,7 +86,7 @@ def clearance_coupon(diameter_mm: float, config: JigConfig) -> PrintedCoupon:
     clearances = _spread(config.clearance, CLEARANCE_STEP_MM)
     wall_mm, long_mm, front_mm = 3.5, 20.0, 9.0
     base_mm = config.base_thickness
-    top_mm = base_mm + max(4.0, 2 * diameter_mm + 1.5)
+    top_mm = base_mm + wall_height_mm(1, diameter_mm, config)
     terraces: list[tuple[Region, float]] = []
     x = 2.0
     terraces.append((_block(x, front_mm, x + wall_mm, front_mm + long_mm), top_mm))

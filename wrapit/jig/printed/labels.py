@@ -8,7 +8,7 @@ from typing import Any
 
 from wrapit.errors import Finding
 from wrapit.geometry.outlines.polygons import region_of
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Label
 from wrapit.jig.printed.digits import number_polygon
 
@@ -22,7 +22,7 @@ DIRECTIONS = 16
 
 
 def wire_labels(
-    course: Course, taken: Any, plate: Any, most_depth_mm: float
+    channels: Channels, taken: Any, plate: Any, most_depth_mm: float
 ) -> tuple[tuple[Label, ...], tuple[Finding, ...]]:
     """A label for each wire, as near to its start as there is room beside what is `taken`.
 
@@ -31,11 +31,11 @@ def wire_labels(
     import shapely
 
     room = plate.buffer(-1.0)
-    under = shapely.union_all([taken, course.channels])
+    under = shapely.union_all([taken, channels.area])
     shapely.prepare(room)
     depth = min(DEPTH_MM, most_depth_mm)
     labels, missing = [], []
-    for wire in course.wires:
+    for wire in channels.wires:
         number = int("".join(c for c in wire.name if c.isdigit()) or 0)
         spot = _spot(number, tuple(wire.ends[0].tolist()), room, (under, taken))
         if spot is None:

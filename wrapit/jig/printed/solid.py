@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
 from wrapit.config import JigConfig
-from wrapit.geometry import Arc, Loop, Region
+from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.moves import circle
 from wrapit.geometry.outlines.polygons import fitted_edges, polygon_of, region_of
 from wrapit.jig.model import JigPlan, Seat
@@ -37,7 +36,7 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
         terraces += [Terrace(stroke, top - label.depth_mm) for stroke in label.strokes]
     terraces += [_seat(seat, top) for seat in plan.seats]
     through = [hole.outline for hole in plan.holes]
-    through += [Loop((Arc(pin.centre, pin.diameter_mm / 2, 0.0, 2 * math.pi),)) for pin in plan.pins]
+    through += [circle(pin.centre, pin.diameter_mm / 2) for pin in plan.pins]
     through += plan.screw_holes
     return terraced_solid(plan.plate.outline.outer, 0.0, top, terraces, through, plan.name)
 

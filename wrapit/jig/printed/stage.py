@@ -23,7 +23,6 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     """
     planned, findings = plan_jigs(wires, config)
     refuse_unheld((one for jig in planned for one in jig.held), config)
-    refuse_unheld((one for jig in planned for one in jig.held), config)
     jigs = tuple(_built(part, config) for part in planned)
     return JigSet(
         "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"

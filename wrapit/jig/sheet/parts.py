@@ -18,6 +18,7 @@ from wrapit.jig.sheet.engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.sheet.frame import Frame, frame_around
 from wrapit.jig.sheet.inlays import Inlay, Offset, make_inlays, moved_outline, polygon_of
 from wrapit.jig.sheet.model import LaserPart
+from wrapit.jig.wall_height import glued_height_mm
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ _SHEET_TOLERANCE_MM = 0.1
 
 def copies_needed(layers: int, diameter_mm: float, config: PlateConfig) -> int:
     """How many wall pieces are stacked, so that walls are as high as the wires' layers, two at least."""
-    needed_mm = config.sheet + max(2, layers) * diameter_mm - _SHEET_TOLERANCE_MM
+    needed_mm = config.sheet + glued_height_mm(layers, diameter_mm) - _SHEET_TOLERANCE_MM
     return max(1, math.ceil(needed_mm / config.wall_sheet))
 
 
