@@ -16,10 +16,16 @@ from wrapit.geometry.outlines.exact import Outliner
 from wrapit.geometry.pieces import chain_of
 from wrapit.wires.model import Turn, Wire
 
-# A channel sampled this much too wide always holds the true one; sides up to SLACK off it are snapped to it.
+# How a polygon stands for a channel. Chords stray from the centreline by SAGITTA, the buffer's 32 segments a
+# quarter from its arcs by 0.71 mm · (1 − cos(π/128)) = 2.1e-4: a polygon PAD too wide holds the true channel
+# (sum 3.1e-4 against the pad of 3e-4, and chord and buffer don't err at one place in one direction). A side
+# of a wall's polygon that lies within SLACK, four times PAD, of a channel is that channel's, and is made
+# exact. Leaf and butterfly: SLACK and SAGITTA 30 % up or
+# down change nothing, PAD moves the support by 0.003.
+SAGITTA_MM = 1e-4
 CHANNEL_PAD_MM = 3e-4
 CHANNEL_SLACK_MM = 1.2e-3
-SAGITTA_MM = 1e-4
+# On which sides of a wire a turn is held, as factors of the left normal; a long stretch has both.
 SIDES = {"left": (1.0,), "right": (-1.0,), "both": (1.0, -1.0)}
 
 

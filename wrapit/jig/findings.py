@@ -10,7 +10,8 @@ from wrapit.jig.channel import Channels
 from wrapit.jig.model import Pin, TurnSupport
 from wrapit.jig.support import support_by_wire
 
-WEAK = 0.5  # turns with wall along less than this share are named
+# Turns with wall along less than this share are named: more of them is left to the hand than to the wall.
+WEAK = 0.5
 
 
 def support_findings(

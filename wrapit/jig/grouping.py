@@ -17,8 +17,13 @@ from wrapit.jig.wall_ground import ROUGH_STEP_MM, TOUCH_MM, face_probes
 from wrapit.wires.model import Wire
 
 ONE_JIG = "jig"
-WORTH_A_JIG = 0.1  # support that a badly held wire must gain
-EASE = 0.02  # of support, given up for one jig less
+# When another jig is worth its plate: a badly held wire gains this much support, or one jig less costs each
+# wire no more than EASE. No measurement set them; 30 % up or down changes the groups of neither leaf (two
+# jigs) nor butterfly (one).
+WORTH_A_JIG = 0.1
+EASE = 0.02
+# Steps of the search for groups, after which the best so far is taken. With losses drawn at random twelve
+# wires take under 0.01 s and end by themselves, thirty stop after 0.8 s.
 WORK = 20_000
 
 

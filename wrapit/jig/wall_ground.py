@@ -17,12 +17,23 @@ from wrapit.geometry import FloatArray
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
 
+# How finely ground is laid beside a turn: a station each STEP, or each FAN radians where the turn is tighter
+# than that, but no finer than LEAST_STEP. STEP 30 % up or down moves the walls' area by 0.02 %.
 STEP_MM = 0.3
+FAN_RAD = math.radians(6)
+LEAST_STEP_MM = 0.03
+# What the ground loses of its samples. SMOOTHING fills notches between strips of neighbouring turns up to
+# twice its width; it decides whether walls that nearly meet are one: at 0.65 mm the butterfly's 15 walls are
+# 11, at 0.35 mm they have 0.6 % less area. SIMPLER only saves corners (30 % up or down changes nothing).
+SMOOTHING_MM = 0.5
+SIMPLER_MM = 5e-4
+# Where one looks for the wall beside a turn: TOUCH behind the place of its face, deeper than polygons err
+# (1e-3 mm), far less than any wall is wide. Each FACE_STEP where support is measured or holes are placed
+# (30 % up or down moves support by 0.001), each ROUGH_STEP where a wall is only told from none, or a loss is
+# estimated (30 % up or down changes neither walls nor groups of leaf and butterfly).
 TOUCH_MM = 0.02
 FACE_STEP_MM = 0.1
 ROUGH_STEP_MM = 0.2
-SMOOTHING_MM = 0.5
-SIMPLER_MM = 5e-4
 
 
 def wall_polygons(
@@ -61,9 +72,10 @@ def wall_ground(channels: Channels, turn: Turn, config: JigConfig) -> Any:
     depth = channels.reach_mm + config.wall_thickness
     _, points, normals, curvature = channels.stations(turn, STEP_MM, config.min_wall_width)
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    if (np.abs(curvature[:-1]) * steps).max() > math.radians(6):
-        finer = STEP_MM * math.radians(6) / float((np.abs(curvature[:-1]) * steps).max())
-        _, points, normals, _ = channels.stations(turn, max(finer, 0.03), config.min_wall_width)
+    fan_rad = float((np.abs(curvature[:-1]) * steps).max())
+    if fan_rad > FAN_RAD:
+        finer_mm = max(STEP_MM * FAN_RAD / fan_rad, LEAST_STEP_MM)
+        _, points, normals, _ = channels.stations(turn, finer_mm, config.min_wall_width)
     strips = []
     for side in SIDES[turn.inside]:
         far = points + side * depth * normals

@@ -12,10 +12,15 @@ from wrapit.jig.openings.room import PLATE_WEB_MM
 from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 from wrapit.wires.model import Turn
 
+# Which pins there are: rods and drills come in steps of 0.1 mm; no measurement set the thinnest.
 SMALLEST_PIN_MM = 0.6
-PIN_STEP_MM = 0.1  # rods and drills come in steps of this
+PIN_STEP_MM = 0.1
+# A turn with wall along this share needs no pin (30 % up or down changes no pin of leaf and butterfly).
+HELD = 0.5
+# Where the tightest place of a turn is looked for: a tenth of the smallest pin and less.
 STEP_MM = 0.05
-HELD = 0.5  # a turn with wall along this share needs no pin
+# How far a pin may reach into a channel: polygons of pin and channel err by less.
+TOUCHING_MM = 0.02
 
 
 def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> tuple[Pin, ...]:
@@ -38,7 +43,8 @@ def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> 
             if pin is None or _held(channels, turn, walls) >= HELD:
                 continue
             disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
-            if channels.area.intersects(disc.buffer(-0.02)) or taken.intersects(disc.buffer(PLATE_WEB_MM)):
+            in_the_way = channels.area.intersects(disc.buffer(-TOUCHING_MM))
+            if in_the_way or taken.intersects(disc.buffer(PLATE_WEB_MM)):
                 continue
             pins.append(pin)
             taken = taken.union(disc)

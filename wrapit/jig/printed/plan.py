@@ -16,6 +16,7 @@ from wrapit.jig.wall_height import wall_heights
 from wrapit.jig.walls_and_pins import plan_walls
 from wrapit.wires.model import Wire
 
+# Plate between a number's frame (which has its own gap) and walls, holes and screws.
 LABEL_GAP_MM = 0.3
 
 

@@ -18,7 +18,8 @@ from wrapit.jig.openings.room import FOOT_MM, PLATE_WEB_MM
 from wrapit.jig.wall_height import wall_height_mm
 from wrapit.wires.model import Wire
 
-FLOOR_MM = 0.8  # plate under a pocket
+# Plate under a pocket: four layers of 0.2 mm, so that it doesn't print as a hole.
+FLOOR_MM = 0.8
 
 
 def seats_of(config: JigConfig, diameter_mm: float) -> tuple[Seat, ...]:

@@ -24,8 +24,10 @@ from wrapit.wires.model import Wire
 if TYPE_CHECKING:
     from shapely import Polygon
 
-# Sheet left between a start hole and a pocket.
-LEAST_WEB_MM = 0.5
+# Sheet left between a start hole and a pocket; `stage.HOLE_WEB_MM` keeps walls off, this catches the rest
+# (30 % up or down changes no part of leaf and butterfly).
+LEAST_HOLE_WEB_MM = 0.5
+# Height of a plate's own label, which fits the strip along its lower edge.
 LABEL_MM = 2.5
 # What tolerances of sheet thickness may take away from a wall's height.
 _SHEET_TOLERANCE_MM = 0.1
@@ -120,7 +122,7 @@ def _clear_holes(
     kept, findings = [], []
     for hole in holes:
         rim = polygon_of(Region(hole.outline))
-        if min((pocket.distance(rim) for pocket in pockets), default=math.inf) >= LEAST_WEB_MM:
+        if min((pocket.distance(rim) for pocket in pockets), default=math.inf) >= LEAST_HOLE_WEB_MM:
             kept.append(hole)
             continue
         findings.append(
