@@ -28,7 +28,8 @@ SHIFTS = 8
 SQUEEZE_MM = 0.3
 # Of points along a turn: shares are right to a point in ten on the tightest turns.
 STEP_MM = 0.25
-# Less of a turn than this is no help to the hand: the peg is left out.
+# Less of a turn than this is no help to the hand: the peg is left out. (What 30 % up or down changes of all
+# four is on the page beside this.)
 LEAST_SHARE = 0.3
 
 
