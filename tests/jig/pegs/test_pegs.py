@@ -19,6 +19,7 @@ from wrapit.config import Config, PegsConfig
 from wrapit.errors import UnheldError
 from wrapit.jig.channel import Channels
 from wrapit.jig.kinds import JIGS
+from wrapit.jig.pegs.drawing import MARK_MM
 from wrapit.jig.pegs.model import Board, PegPlan, hole_name
 from wrapit.jig.pegs.placing import SHIFTS, SQUEEZE_MM, place_pegs
 from wrapit.pipeline.build import build
@@ -141,7 +142,11 @@ def test_the_drawing_of_the_board_is_at_true_size(tmp_path: Path) -> None:
     circles = [2 * entity.dxf.radius for entity in document.modelspace().query("CIRCLE")]
     for peg in numbers["pegs"]:
         assert any(size == pytest.approx(peg["diameter_mm"]) for size in circles)
-    assert sum(size < 1 for size in circles) == numbers["columns"] * numbers["rows"]
+    # Points in pegs' sizes are circles too, but on another layer than the holes' marks.
+    marks = document.modelspace().query("CIRCLE[layer=='SCORE']")
+    assert [2 * mark.dxf.radius for mark in marks] == pytest.approx(
+        [MARK_MM] * (numbers["columns"] * numbers["rows"])
+    )
     page = (tmp_path / "out" / "guide.html").read_text()
     section = page.split('<section id="pegs">')[1].split("</section>")[0]
     for peg in numbers["pegs"]:
