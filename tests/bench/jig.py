@@ -18,11 +18,11 @@ from tests.jig.metal import arcs, scribble, spiral, wires_of
 from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
 from wrapit.geometry.outlines.exact import Outliner
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import total_support
-from wrapit.jig.wall_ground import blank
+from wrapit.jig.wall_ground import wall_ground
 from wrapit.kernel.edges import region_face
 from wrapit.kernel.measures import volume_mm3
 from wrapit.wires.model import Wire
@@ -54,14 +54,14 @@ def naive_seconds(wires: tuple[Wire, ...], config: JigConfig) -> tuple[float, in
 
     start = time.perf_counter()
     plan, _ = plan_jig(wires, config)
-    course = Course.of(wires, config)
+    channels = Channels.of(wires, config)
     top = plan.plate.thickness_mm
-    slots = [_prism(face, top - 1, 12) for face in _slots(course)]
+    slots = [_prism(face, top - 1, 12) for face in _slots(channels)]
     jig = _prism(region_face(plan.plate.outline), 0, top)
     booleans = 0
     for wire in wires:
         for turn in wire.turns:
-            solid = _prism(_fitted_face(blank(course, turn, config)), top - 0.1, 5.1)
+            solid = _prism(_fitted_face(wall_ground(channels, turn, config)), top - 0.1, 5.1)
             for slot in slots:
                 solid = BRepAlgoAPI_Cut(solid, slot).Shape()
                 booleans += 1
@@ -72,16 +72,16 @@ def naive_seconds(wires: tuple[Wire, ...], config: JigConfig) -> tuple[float, in
     return time.perf_counter() - start, booleans, volume_mm3(jig) > 0
 
 
-def _slots(course: Course) -> list[Any]:
+def _slots(channels: Channels) -> list[Any]:
     """The channel of each wire in pieces of about 5 mm, as exact faces."""
     faces = []
-    for chain in course.chains:
+    for chain in channels.chains:
         points = chain.sampled(0.02)
         pieces = max(1, round(chain.length / 5))
         cuts = np.linspace(0, len(points) - 1, pieces + 1).astype(int)
         for a, b in itertools.pairwise(cuts):
-            slot = shapely.LineString(points[a : b + 1]).buffer(course.reach_mm + 3e-4, quad_segs=32)
-            outliner = Outliner.of([chain], course.reach_mm, 1.2e-3)
+            slot = shapely.LineString(points[a : b + 1]).buffer(channels.reach_mm + 3e-4, quad_segs=32)
+            outliner = Outliner.of([chain], channels.reach_mm, 1.2e-3)
             faces.append(region_face(outliner.region(slot)))
     return faces
 

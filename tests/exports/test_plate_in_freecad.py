@@ -12,7 +12,7 @@ import pytest
 from shapely import Polygon
 
 from tests.exports.pieces_for_tests import eye
-from tests.exports.test_laser import laser_of
+from tests.jig.sheet.laser import laser_of
 from wrapit.config import PlateConfig
 from wrapit.config.plate import CurveStyle, ProfileName
 from wrapit.exports.plate_dxf import write_dxf

@@ -17,7 +17,7 @@ from wrapit.instructions.plan import plan_guide
 from wrapit.instructions.stage import write_instructions
 from wrapit.instructions.wording import joint_phrase, listed, millimetres, shape_phrase, thickness
 from wrapit.jig.made import GuidePage, Handling
-from wrapit.jig.sheet.page import plan_laser_page
+from wrapit.jig.sheet.gluing_page import plan_laser_page
 from wrapit.units import awg_diameter_mm
 
 VOID = {"meta", "link", "br", "img", "input", "hr"}

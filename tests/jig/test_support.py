@@ -6,20 +6,28 @@ import math
 
 import pytest
 import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.jig.metal import AWG18_MM, arcs, circle, config, line, only, wires_of
 from wrapit.config import JigConfig
+from wrapit.errors import UnheldError
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.channel import Course
-from wrapit.jig.findings import support_findings
+from wrapit.jig.channel import Channels
+from wrapit.jig.findings import support_findings, unheld_findings
+from wrapit.jig.model import Pin, TurnSupport
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.support import (
+    held_share,
     min_wall_to_wire_mm,
+    refuse_unheld,
     stretch_support,
     support_by_wire,
     total_support,
     turn_support,
+    with_pins,
 )
+from wrapit.wires.model import Turn
 
 REACH_MM = AWG18_MM / 2 + 0.2
 
@@ -39,18 +47,20 @@ def test_crossing_wire_opens_a_wall() -> None:
 def test_a_stretch_needs_one_wall_and_is_no_turn() -> None:
     chains = [arcs((0, 0), 0, (9, 180), (60, 0))]
     wires, jig = wires_of(chains), only(chains)
-    course = Course.of(wires, JigConfig())
+    channels = Channels.of(wires, JigConfig())
     stretch = next(turn for turn in wires[0].turns if turn.inside == "both")
     below = [wall for wall in jig.walls if polygon_of(wall, 0.01).bounds[1] < 18]
     assert len(below) < len(jig.walls)  # one wall stands above the stretch, outside the bend
-    one_sided, bare = turn_support(course, below), turn_support(course, ())
+    one_sided, bare = turn_support(channels, below), turn_support(channels, ())
     assert stretch_support(one_sided) == pytest.approx(1.0)
     assert total_support(one_sided) == total_support(jig.support) > 0.95
     assert stretch_support(bare) == total_support(bare) == 0.0
     plan, _ = plan_jig(wires, JigConfig())
-    weak = {finding.code: finding.where for finding in support_findings(course, plan.pins, bare, JigConfig())}
+    weak = {
+        finding.code: finding.where for finding in support_findings(channels, plan.pins, bare, JigConfig())
+    }
     assert set(weak) == {"weak-turn", "weak-stretch"}
-    assert weak["weak-stretch"] == course.place(stretch)
+    assert weak["weak-stretch"] == channels.place(stretch)
 
 
 def test_holes_make_way_for_the_walls_of_turns() -> None:
@@ -78,6 +88,77 @@ def test_measured_gap_sees_a_wall_that_is_too_near() -> None:
     near, wide = config(clearance="0.2 mm"), config(clearance="0.3 mm")
     wires = wires_of([arcs((0, 0), 0, (9, 180))], near)
     plan, _ = plan_jig(wires, near)
-    walls = [Course.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
-    gap, _ = min_wall_to_wire_mm(Course.of(wires, wide), walls)
+    walls = [Channels.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
+    gap, _ = min_wall_to_wire_mm(Channels.of(wires, wide), walls)
     assert gap == pytest.approx(0.2, abs=1e-4)
+
+
+def turn(start_mm: float, length_mm: float, wire: str = "wire-01", inside: str = "left") -> Turn:
+    return Turn(wire, start_mm, start_mm + length_mm, inside, 0.2)  # type: ignore[arg-type]
+
+
+SUPPORT = st.lists(
+    st.builds(
+        lambda start, length, wire, inside, share: TurnSupport(turn(start, length, wire, inside), share),
+        st.floats(0, 100),
+        st.floats(0.5, 50),
+        st.sampled_from(["wire-01", "wire-02"]),
+        st.sampled_from(["left", "right", "both"]),
+        st.floats(0, 1),
+    ),
+    max_size=6,
+)
+
+
+def test_a_pin_holds_its_turn_whole_and_no_other() -> None:
+    tight, wide = turn(3, 4), turn(20, 12)
+    support = (TurnSupport(tight, 0.1), TurnSupport(wide, 0.4))
+    pinned = with_pins(support, (Pin(tight, (0.0, 0.0), 0.6),))
+    assert pinned == (TurnSupport(tight, 1.0), TurnSupport(wide, 0.4))
+    assert with_pins(support, ()) == support
+
+
+@given(SUPPORT)
+def test_pins_never_hold_less(support: list[TurnSupport]) -> None:
+    pins = [Pin(one.turn, (0.0, 0.0), 0.6) for one in support[::2]]
+    held = with_pins(support, pins)
+    assert [one.turn for one in held] == [one.turn for one in support]
+    assert held_share(held) >= held_share(support) - 1e-12
+
+
+@given(SUPPORT, st.floats(0, 1))
+def test_what_holds_less_than_asked_is_refused(support: list[TurnSupport], least: float) -> None:
+    """Turns and long stretches count together, by their lengths."""
+    settings = JigConfig(least_support=least)
+    total = sum(one.turn.end_mm - one.turn.start_mm for one in support)
+    held = sum((one.turn.end_mm - one.turn.start_mm) * one.share for one in support) if support else 0.0
+    if support and held / total < least - 1e-9:
+        with pytest.raises(UnheldError, match=r"less than jig\.least_support"):
+            refuse_unheld(support, settings)
+    elif not support or held / total > least + 1e-9:
+        refuse_unheld(support, settings)
+
+
+def test_the_refusal_says_how_much_is_held_and_how_much_is_asked() -> None:
+    support = (TurnSupport(turn(0, 10), 0.5), TurnSupport(turn(20, 30, inside="both"), 0.1))
+    with pytest.raises(UnheldError) as refusal:
+        refuse_unheld(support, JigConfig())
+    assert refusal.value.problem == (
+        "walls would hold 20% of the turns and long stretches, less than jig.least_support (30%)"
+    )
+
+
+def test_a_wire_whose_turns_nothing_holds_is_an_error_that_names_it() -> None:
+    """A well held long stretch doesn't hide its bad turns, and a wire of stretches alone has none."""
+    held = (
+        TurnSupport(turn(0, 10, "wire-01"), 0.2),
+        TurnSupport(turn(20, 90, "wire-01", "both"), 1.0),
+        TurnSupport(turn(0, 10, "wire-02"), 0.9),
+        TurnSupport(turn(0, 90, "wire-03", "both"), 0.0),
+    )
+    (found,) = unheld_findings(held, JigConfig())
+    assert (found.level, found.code, found.where) == ("error", "unheld-wire", "wire-01")
+    assert "20%" in found.message
+    assert found.severity == pytest.approx(0.8)
+    assert unheld_findings(held, JigConfig(least_support=0)) == ()
+    assert unheld_findings(with_pins(held, [Pin(held[0].turn, (0, 0), 0.6)]), JigConfig()) == ()

@@ -16,16 +16,25 @@ from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
 from wrapit.wires.model import Turn, Wire
 
-# A channel sampled this much too wide always holds the true one; sides up to SLACK off it are snapped to it.
+# How a polygon stands for a channel. Chords stray from the centreline by SAGITTA, the buffer's 32 segments a
+# quarter from its arcs by 0.71 mm · (1 − cos(π/128)) = 2.1e-4: a polygon PAD too wide holds the true channel
+# (sum 3.1e-4 against the pad of 3e-4, and chord and buffer don't err at one place in one direction). A side
+# of a wall's polygon that lies within SLACK, four times PAD, of a channel is that channel's, and is made
+# exact. Leaf and butterfly: SLACK and SAGITTA 30 % up or
+# down change nothing, PAD moves the support by 0.003.
+SAGITTA_MM = 1e-4
 CHANNEL_PAD_MM = 3e-4
 CHANNEL_SLACK_MM = 1.2e-3
-SAGITTA_MM = 1e-4
+# On which sides of a wire a turn is held, as factors of the left normal; a long stretch has both.
 SIDES = {"left": (1.0,), "right": (-1.0,), "both": (1.0, -1.0)}
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
-    """The wires that share one jig. All have one diameter; ValueError otherwise, or without any wire."""
+class Channels:
+    """What the wires that share one jig take up, each with its clearance.
+
+    All have one diameter; ValueError otherwise, or without any wire.
+    """
 
     wires: tuple[Wire, ...]
     clearance_mm: float
@@ -35,9 +44,9 @@ class Course:
             raise ValueError("a jig takes one or more wires of one diameter")
 
     @staticmethod
-    def of(wires: tuple[Wire, ...], config: JigConfig) -> Course:
-        """The wires' course with the configured clearance."""
-        return Course(wires, config.clearance)
+    def of(wires: tuple[Wire, ...], config: JigConfig) -> Channels:
+        """The wires' channels with the configured clearance."""
+        return Channels(wires, config.clearance)
 
     @property
     def diameter_mm(self) -> float:
@@ -60,7 +69,7 @@ class Course:
         return Outliner.of(self.chains, self.reach_mm, CHANNEL_SLACK_MM)
 
     @cached_property
-    def channels(self) -> Any:
+    def area(self) -> Any:
         """Everything that a wire and its clearance take up, as shapely geometry, CHANNEL_PAD_MM too wide."""
         import shapely
 

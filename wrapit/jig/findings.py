@@ -6,21 +6,22 @@ from collections.abc import Iterable, Mapping
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Pin, TurnSupport
 from wrapit.jig.support import support_by_wire
 
-WEAK = 0.5  # turns with wall along less than this share are named
+# Turns with wall along less than this share are named: more of them is left to the hand than to the wall.
+WEAK = 0.5
 
 
 def support_findings(
-    course: Course, pins: Iterable[Pin], support: Iterable[TurnSupport], config: JigConfig
+    channels: Channels, pins: Iterable[Pin], support: Iterable[TurnSupport], config: JigConfig
 ) -> tuple[Finding, ...]:
     """A finding for each turn or long stretch that is held badly: a pin takes it, or what could be done."""
     pin_in = {pin.turn: pin for pin in pins}
     findings = []
     for one in support:
-        where = course.place(one.turn)
+        where = channels.place(one.turn)
         if one.turn in pin_in:
             diameter = pin_in[one.turn].diameter_mm
             findings.append(
@@ -50,7 +51,7 @@ def support_findings(
                     "weak-turn",
                     where,
                     f"{one.share:.0%} of this turn has a wall on the inside",
-                    _remedy(course, one, config),
+                    _remedy(channels, one, config),
                     severity=1 - one.share,
                 )
             )
@@ -97,8 +98,8 @@ def free_finding(wire: str) -> Finding:
     )
 
 
-def _remedy(course: Course, one: TurnSupport, config: JigConfig) -> str:
+def _remedy(channels: Channels, one: TurnSupport, config: JigConfig) -> str:
     bend = one.turn.max_curvature_per_mm
-    if bend > 0 and 2 * (1 / bend - course.reach_mm) < config.min_wall_width:
+    if bend > 0 and 2 * (1 / bend - channels.reach_mm) < config.min_wall_width:
         return "bend it with round-nose pliers, make the piece larger, or use thinner wire"
     return "hold it by hand there, make the piece larger, or set jig.split to per-wire"

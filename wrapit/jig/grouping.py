@@ -10,16 +10,21 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
-from wrapit.jig.channel import CHANNEL_PAD_MM, Course
+from wrapit.jig.channel import CHANNEL_PAD_MM, Channels
 from wrapit.jig.findings import free_finding, split_finding
-from wrapit.jig.holes import hole_obstacles, start_holes
-from wrapit.jig.wall_ground import TOUCH_MM, face_probes
+from wrapit.jig.openings.holes import hole_obstacles, start_holes
+from wrapit.jig.wall_ground import ROUGH_STEP_MM, TOUCH_MM, face_probes
 from wrapit.wires.model import Wire
 
+# What the jig of all wires is called; several are called after theirs.
 ONE_JIG = "jig"
-WORTH_A_JIG = 0.1  # support that a badly held wire must gain
-PROBE_STEP_MM = 0.2
-EASE = 0.02  # of support, given up for one jig less
+# When another jig is worth its plate: a badly held wire gains this much support, or one jig less costs each
+# wire no more than EASE. No measurement set them; 30 % up or down changes the groups of neither leaf (two
+# jigs) nor butterfly (one).
+WORTH_A_JIG = 0.1
+EASE = 0.02
+# Steps of the search for groups, after which the best so far is taken. With losses drawn at random twelve
+# wires take under 0.01 s and end by themselves, thirty stop after 0.8 s.
 WORK = 20_000
 
 
@@ -126,23 +131,23 @@ def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
     import shapely
 
     losses = np.zeros((len(wires), len(wires)))
-    courses = [Course.of((wire,), config) for wire in wires]
+    apart = [Channels.of((wire,), config) for wire in wires]
     half = config.min_wall_width / 2
-    reaches = [course.channels.buffer(half - CHANNEL_PAD_MM, quad_segs=4) for course in courses]
-    tails = [hole_obstacles(start_holes(course, config)) for course in courses]
+    reaches = [channels.area.buffer(half - CHANNEL_PAD_MM, quad_segs=4) for channels in apart]
+    tails = [hole_obstacles(start_holes(channels, config)) for channels in apart]
     for shape in (*reaches, *tails):
         shapely.prepare(shape)
-    for i, course in enumerate(courses):
-        turns = [turn for turn in course.wires[0].turns if turn.inside != "both"]
+    for i, channels in enumerate(apart):
+        turns = [turn for turn in channels.wires[0].turns if turn.inside != "both"]
         if not turns:
             continue
         face, inside = (
             shapely.points(
-                np.concatenate([face_probes(course, turn, PROBE_STEP_MM, depth) for turn in turns])
+                np.concatenate([face_probes(channels, turn, ROUGH_STEP_MM, depth) for turn in turns])
             )
             for depth in (TOUCH_MM, half)
         )
-        free = ~shapely.contains(course.channels, inside)
+        free = ~shapely.contains(channels.area, inside)
         for j in range(len(wires)):
             if i != j:
                 lost = shapely.contains(reaches[j], inside) | shapely.contains(tails[j], face)

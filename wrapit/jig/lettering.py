@@ -12,7 +12,7 @@ from wrapit.geometry import FloatArray, Line
 from wrapit.geometry.polyline import steps
 from wrapit.jig.contours import Contour
 
-# Capitals of the Hershey font fill three quarters of its full height.
+# Capitals of the Hershey font fill three quarters of its full height (the font's own measure).
 _CAPITAL = 0.75
 
 

@@ -7,10 +7,10 @@ from typing import Any
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
-from wrapit.jig.channel import Course
-from wrapit.jig.holes import hole_obstacles, hole_rims, start_holes
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Hole, Pin
-from wrapit.jig.pins import pin_holes, pin_obstacles
+from wrapit.jig.openings.holes import hole_obstacles, hole_rims, start_holes
+from wrapit.jig.openings.pins import pin_holes, pin_obstacles
 from wrapit.jig.wall_ground import wall_polygons
 from wrapit.wires.model import Turn
 
@@ -30,18 +30,18 @@ class WallPlan:
     findings: tuple[Finding, ...]
 
 
-def plan_walls(course: Course, config: JigConfig, pockets: Any) -> WallPlan:
+def plan_walls(channels: Channels, config: JigConfig, pockets: Any) -> WallPlan:
     """The walls and pins of these wires; `pockets` (shapely) are kept free for something else."""
     import shapely
 
-    holes = start_holes(course, config)
+    holes = start_holes(channels, config)
     rims = hole_rims(holes)
     blocked = hole_obstacles(holes).union(pockets)
-    polygons, dropped = wall_polygons(course, config, blocked)
+    polygons, dropped = wall_polygons(channels, config, blocked)
     pins = pin_holes(
-        course, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
+        channels, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
     )
     if pins:
         blocked = shapely.union_all([blocked, pin_obstacles(pins)])
-        polygons, dropped = wall_polygons(course, config, blocked)
+        polygons, dropped = wall_polygons(channels, config, blocked)
     return WallPlan(tuple(polygons), tuple(pins), tuple(holes), rims, blocked, dropped)

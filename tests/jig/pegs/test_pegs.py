@@ -17,8 +17,9 @@ from hypothesis import strategies as st
 from tests.jig.metal import arcs, circle, line, wires_of
 from wrapit.config import Config, PegsConfig
 from wrapit.errors import UnheldError
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.kinds import JIGS
+from wrapit.jig.pegs.drawing import MARK_MM
 from wrapit.jig.pegs.model import Board, PegPlan, hole_name
 from wrapit.jig.pegs.placing import SHIFTS, SQUEEZE_MM, place_pegs
 from wrapit.pipeline.build import build
@@ -30,9 +31,9 @@ CURLS = st.lists(
 )
 
 
-def planned(chains: list, config: PegsConfig | None = None) -> tuple[PegPlan, Course]:  # type: ignore[type-arg]
-    course = Course(wires_of(chains), 0.2)
-    return place_pegs(course, config or PegsConfig()), course
+def planned(chains: list, config: PegsConfig | None = None) -> tuple[PegPlan, Channels]:  # type: ignore[type-arg]
+    channels = Channels(wires_of(chains), 0.2)
+    return place_pegs(channels, config or PegsConfig()), channels
 
 
 def test_a_round_turn_takes_the_peg_that_fills_it() -> None:
@@ -71,16 +72,16 @@ def test_pegs_stand_inside_their_turns_and_in_nobodys_way(
 ) -> None:
     steps = [each for radius, degrees in curls for each in ((radius, degrees), (6.0, 0))]
     config = PegsConfig(pitch=f"{pitch} mm")
-    plan, course = planned([arcs((0, 0), 0, (6.0, 0), *steps)], config)
-    wire = course.wires[0]
-    centreline = shapely.LineString(course.chains[0].sampled(0.01))
+    plan, channels = planned([arcs((0, 0), 0, (6.0, 0), *steps)], config)
+    wire = channels.wires[0]
+    centreline = shapely.LineString(channels.chains[0].sampled(0.01))
     for peg in plan.pegs:
         middle = plan.board.place(peg.cell)
         assert peg.diameter_mm in config.diameters
         room = shapely.Point(middle).distance(centreline) - wire.diameter_mm / 2 - peg.diameter_mm / 2
         assert room >= -SQUEEZE_MM - 0.01
         for turn, share in peg.turns:
-            _, points, normals, _ = course.stations(turn, 0.1)
+            _, points, normals, _ = channels.stations(turn, 0.1)
             nearest = int(np.linalg.norm(points - middle, axis=1).argmin())
             side = float((np.array(middle) - points[nearest]) @ normals[nearest])
             assert (side > 0) == (turn.inside == "left")
@@ -96,11 +97,11 @@ def test_pegs_stand_inside_their_turns_and_in_nobodys_way(
 @settings(max_examples=10, deadline=None)
 @given(radius=st.floats(1.5, 8.0), degrees=st.sampled_from([60.0, 120.0, 180.0]))
 def test_no_hole_of_any_board_would_do_better_for_one_turn(radius: float, degrees: float) -> None:
-    plan, course = planned([arcs((0, 0), 0, (8.0, 0), (radius, degrees), (8.0, 0))])
-    turn = next(turn for turn in course.wires[0].turns if turn.inside != "both")
-    _, points, _, _ = course.stations(turn, 0.25)
-    centreline = shapely.LineString(course.chains[0].sampled(0.05))
-    config, half = PegsConfig(), course.diameter_mm / 2
+    plan, channels = planned([arcs((0, 0), 0, (8.0, 0), (radius, degrees), (8.0, 0))])
+    turn = next(turn for turn in channels.wires[0].turns if turn.inside != "both")
+    _, points, _, _ = channels.stations(turn, 0.25)
+    centreline = shapely.LineString(channels.chains[0].sampled(0.05))
+    config, half = PegsConfig(), channels.diameter_mm / 2
     best = 0.0
     low = points.min(axis=0) - 12
     for i, j in itertools.product(range(-40, 200), repeat=2):
@@ -141,8 +142,11 @@ def test_the_drawing_of_the_board_is_at_true_size(tmp_path: Path) -> None:
     circles = [2 * entity.dxf.radius for entity in document.modelspace().query("CIRCLE")]
     for peg in numbers["pegs"]:
         assert any(size == pytest.approx(peg["diameter_mm"]) for size in circles)
-    holes = document.modelspace().query('CIRCLE[layer=="SCORE"]')
-    assert len(holes) == numbers["columns"] * numbers["rows"]
+    # Points in pegs' sizes are circles too, but on another layer than the holes' marks.
+    marks = document.modelspace().query("CIRCLE[layer=='SCORE']")
+    assert [2 * mark.dxf.radius for mark in marks] == pytest.approx(
+        [MARK_MM] * (numbers["columns"] * numbers["rows"])
+    )
     page = (tmp_path / "out" / "guide.html").read_text()
     section = page.split('<section id="pegs">')[1].split("</section>")[0]
     for peg in numbers["pegs"]:

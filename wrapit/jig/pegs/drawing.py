@@ -11,6 +11,7 @@ from wrapit.wires.model import Wire
 
 # Holes are marked, not drawn in full: pegs' shanks differ from maker to maker.
 MARK_MM = 0.8
+# Legible on a print at true size; smaller where a peg is thinner than its size is wide.
 TEXT_MM = 2.0
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from wrapit.config import PegsConfig
 from wrapit.geometry import FloatArray
-from wrapit.jig.channel import SIDES, Course
+from wrapit.jig.channel import SIDES, Channels
 from wrapit.jig.pegs.model import Board, Cell, Peg, PegPlan
 from wrapit.wires.model import Turn
 
@@ -28,7 +28,8 @@ SHIFTS = 8
 SQUEEZE_MM = 0.3
 # Of points along a turn: shares are right to a point in ten on the tightest turns.
 STEP_MM = 0.25
-# Less of a turn than this is no help to the hand: the peg is left out.
+# Less of a turn than this is no help to the hand: the peg is left out. (What 30 % up or down changes of all
+# four is on the page beside this.)
 LEAST_SHARE = 0.3
 
 
@@ -49,17 +50,19 @@ class _Inside:
     normals: FloatArray
 
 
-def place_pegs(course: Course, config: PegsConfig) -> PegPlan:
+def place_pegs(channels: Channels, config: PegsConfig) -> PegPlan:
     """The board with a peg for each turn that one can serve, the piece lying where most turns are served."""
     import shapely
 
-    low = np.vstack([chain.points.reshape(-1, 2).min(axis=0) for chain in course.chains]).min(axis=0)
-    high = np.vstack([chain.points.reshape(-1, 2).max(axis=0) for chain in course.chains]).max(axis=0)
-    lines = shapely.union_all([shapely.LineString(chain.sampled(0.05)) for chain in course.chains])
-    turns = [_inside(course, turn) for wire in course.wires for turn in wire.turns if turn.inside != "both"]
+    low = np.vstack([chain.points.reshape(-1, 2).min(axis=0) for chain in channels.chains]).min(axis=0)
+    high = np.vstack([chain.points.reshape(-1, 2).max(axis=0) for chain in channels.chains]).max(axis=0)
+    lines = shapely.union_all([shapely.LineString(chain.sampled(0.05)) for chain in channels.chains])
+    turns = [
+        _inside(channels, turn) for wire in channels.wires for turn in wire.turns if turn.inside != "both"
+    ]
     best: tuple[float, list[list[_Choice]], Board] | None = None
     for board in _boards(low, high, config):
-        choices = _choices(board, turns, lines, course.diameter_mm / 2, config)
+        choices = _choices(board, turns, lines, channels.diameter_mm / 2, config)
         score = sum(each[0].share for each in choices if each)
         if best is None or score > best[0] + 1e-9:
             best = score, choices, board
@@ -79,8 +82,8 @@ def _boards(low: FloatArray, high: FloatArray, config: PegsConfig) -> Iterator[B
         yield Board((x, y), pitch, columns, rows, config.margin)
 
 
-def _inside(course: Course, turn: Turn) -> _Inside:
-    _, points, normals, _ = course.stations(turn, STEP_MM)
+def _inside(channels: Channels, turn: Turn) -> _Inside:
+    _, points, normals, _ = channels.stations(turn, STEP_MM)
     return _Inside(turn, points, normals * SIDES[turn.inside][0])
 
 

@@ -9,11 +9,11 @@ from wrapit.config import Config
 from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle, rounded_rectangle
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires, reported
+from wrapit.jig.pegs.board_page import plan_peg_page
 from wrapit.jig.pegs.drawing import board_drawing
 from wrapit.jig.pegs.model import Peg, PegPlan, hole_name
-from wrapit.jig.pegs.page import plan_peg_page
 from wrapit.jig.pegs.placing import place_pegs
 
 
@@ -47,7 +47,7 @@ def held(wires: Wires, config: Config) -> float:
 def _plan(wires: Wires, config: Config) -> PegPlan:
     if not wires:
         raise JigError("there are no wires to make a jig for")
-    return place_pegs(Course.of(wires, config.jig), config.pegs)
+    return place_pegs(Channels.of(wires, config.jig), config.pegs)
 
 
 def _numbers(plan: PegPlan) -> dict[str, object]:
@@ -87,4 +87,5 @@ def _findings(plan: PegPlan, config: Config) -> tuple[Finding, ...]:
     )
 
 
+# The kind, as `jig.kinds` lists it.
 PEGS: Final = JigMaker("pegs", solid=False, make=make, held=held)

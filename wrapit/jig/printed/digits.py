@@ -24,6 +24,7 @@ _STROKES: dict[str, list[list[tuple[float, float]]]] = {
     ],
     "9": [[(0.4, 0), (2, 1), (3, 3), (3, 4), (2, 5), (1, 5), (0, 4), (0, 3), (1, 2.1), (2, 2.1), (3, 3)]],
 }
+# The box of a digit, and from one to the next: strokes of 0.6 mm stay open between digits of 2.5 mm.
 _BOX = (3.0, 5.0)
 _ADVANCE = 4.4
 

@@ -7,7 +7,7 @@ from typing import Any
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import JigPlan, Label, Plate, Wall
 from wrapit.jig.printed.labels import wire_labels
 from wrapit.jig.printed.plate import plate_outline
@@ -16,6 +16,7 @@ from wrapit.jig.wall_height import wall_heights
 from wrapit.jig.walls_and_pins import plan_walls
 from wrapit.wires.model import Wire
 
+# Plate between a number's frame (which has its own gap) and walls, holes and screws.
 LABEL_GAP_MM = 0.3
 
 
@@ -29,18 +30,18 @@ def plan_jig(
     """
     import shapely
 
-    course = Course.of(wires, config)
-    seats = seats_of(config)
+    channels = Channels.of(wires, config)
+    seats = seats_of(config, channels.diameter_mm)
     pockets = seat_obstacles(seats)
-    planned = plan_walls(course, config, pockets)
+    planned = plan_walls(channels, config, pockets)
     holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
     check_holes(seats, rims)
-    heights = wall_heights(course, [polygon for polygon, _ in planned.polygons], config)
+    heights = wall_heights(channels, [polygon for polygon, _ in planned.polygons], config)
     walls = tuple(
         Wall(turns, polygon, height)
         for (polygon, turns), height in zip(planned.polygons, heights, strict=True)
     )
-    covered = shapely.union_all([course.channels, rims, pockets, *(wall.outline for wall in walls)])
+    covered = shapely.union_all([channels.area, rims, pockets, *(wall.outline for wall in walls)])
     outline, screws = plate_outline(covered, config, name)
     plate = Plate(Region(outline), config.base_thickness)
     labels: tuple[Label, ...] = ()
@@ -49,7 +50,7 @@ def plan_jig(
         taken = shapely.union_all([blocked, rims, *(wall.outline for wall in walls)]).buffer(LABEL_GAP_MM)
         screwed = [_polygon(screw).buffer(LABEL_GAP_MM) for screw in screws]
         labels, unlabelled = wire_labels(
-            course, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
+            channels, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
     plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats)

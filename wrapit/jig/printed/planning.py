@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.findings import support_findings, unheld_findings
 from wrapit.jig.grouping import parted
 from wrapit.jig.model import JigPlan, TurnSupport
@@ -22,7 +22,7 @@ from wrapit.wires.model import Wire
 class PlannedJig:
     """A plan with its exact wall faces and what they hold."""
 
-    course: Course
+    channels: Channels
     plan: JigPlan
     faces: tuple[Face, ...]
     support: tuple[TurnSupport, ...]
@@ -61,7 +61,7 @@ def plan_jigs(
     findings = [*said]
     for jig in jigs:
         findings += [*jig.findings, *plain_finding(jig.faces, jig.plan.name)]
-        findings += [*support_findings(jig.course, jig.plan.pins, jig.support, config)]
+        findings += [*support_findings(jig.channels, jig.plan.pins, jig.support, config)]
         findings += unheld_findings(jig.held, config)
     return jigs, tuple(findings)
 
@@ -82,12 +82,12 @@ def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
                 "jig.seats",
                 "leave the seats out, or set jig.springback to report",
             )
-    check_seats(Course.of(wires, config), config)
+    check_seats(Channels.of(wires, config), config)
 
 
 def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> PlannedJig:
-    course = Course.of(wires, config)
+    channels = Channels.of(wires, config)
     plan, findings = plan_jig(wires, config, name)
-    faces = tuple(wall_face(course, wall) for wall in plan.walls)
-    support = turn_support(course, [face.region for face in faces])
-    return PlannedJig(course, plan, faces, support, findings)
+    faces = tuple(wall_face(channels, wall) for wall in plan.walls)
+    support = turn_support(channels, [face.region for face in faces])
+    return PlannedJig(channels, plan, faces, support, findings)

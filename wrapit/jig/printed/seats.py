@@ -12,20 +12,22 @@ import numpy as np
 from wrapit.config import JigConfig, SeatConfig
 from wrapit.errors import JigError
 from wrapit.geometry.bspline import chain_of
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Seat
+from wrapit.jig.openings.room import FOOT_MM, PLATE_WEB_MM
+from wrapit.jig.wall_height import wall_height_mm
 from wrapit.wires.model import Wire
 
-WEB_MM = 0.5  # plate between a pocket and another, or a start hole
-FOOT_MM = 0.1  # between a pocket's rim and a wall's foot
-FLOOR_MM = 0.8  # plate under a pocket
+# Plate under a pocket: four layers of 0.2 mm, so that it doesn't print as a hole.
+FLOOR_MM = 0.8
 
 
-def seats_of(config: JigConfig) -> tuple[Seat, ...]:
+def seats_of(config: JigConfig, diameter_mm: float) -> tuple[Seat, ...]:
     """The seats as they are built: pockets wider than the beads by the clearance all round.
 
-    A post is as high as the walls, but never higher than the bead.
+    A post is as high as the walls beside wire of this diameter, but never higher than the bead.
     """
+    walls_mm = wall_height_mm(1, diameter_mm, config)
     return tuple(
         Seat(
             seat.at,
@@ -33,24 +35,25 @@ def seats_of(config: JigConfig) -> tuple[Seat, ...]:
             seat.diameter + 2 * config.clearance,
             seat.depth,
             seat.post,
-            max(0.0, min(config.min_wall_height, seat.diameter - seat.depth)),
+            max(0.0, min(walls_mm, seat.diameter - seat.depth)),
         )
         for seat in config.seats
     )
 
 
-def check_seats(course: Course, config: JigConfig) -> None:
+def check_seats(channels: Channels, config: JigConfig) -> None:
     """Raises JigError, naming the seat, where one can't be built or is in the way of a wire or another."""
-    for seat, built in zip(config.seats, seats_of(config), strict=True):
+    planned = seats_of(config, channels.diameter_mm)
+    for seat, built in zip(config.seats, planned, strict=True):
         _check_size(seat, config)
-        _check_wires(course, built)
-    for first, second in itertools.combinations(seats_of(config), 2):
+        _check_wires(channels, built)
+    for first, second in itertools.combinations(planned, 2):
         apart = math.dist(first.centre, second.centre) - (first.diameter_mm + second.diameter_mm) / 2
-        if apart < WEB_MM:
+        if apart < PLATE_WEB_MM:
             raise JigError(
-                f"it and the seat at {_xy(second)} are nearer than {WEB_MM:g} mm",
+                f"it and the seat at {_xy(second)} are nearer than {PLATE_WEB_MM:g} mm",
                 f"seat at {_xy(first)}",
-                f"move one by {WEB_MM - apart:.1f} mm or more",
+                f"move one by {PLATE_WEB_MM - apart:.1f} mm or more",
             )
 
 
@@ -58,11 +61,11 @@ def check_holes(seats: Sequence[Seat], rims: Any) -> None:
     """Raises JigError where a start hole (shapely geometry of all) runs into a pocket."""
     for seat in seats:
         web = rims.distance(_disc(seat, 0.0))
-        if web < WEB_MM:
+        if web < PLATE_WEB_MM:
             raise JigError(
                 "a wire ends there, and its start hole would run into the pocket",
                 f"seat at {_xy(seat)}",
-                f"move it away from the wire's end by {WEB_MM - web:.1f} mm or more, or make it smaller",
+                f"move it {PLATE_WEB_MM - web:.1f} mm or more away from the wire's end, or make it smaller",
             )
 
 
@@ -111,11 +114,11 @@ def _check_size(seat: SeatConfig, config: JigConfig) -> None:
         )
 
 
-def _check_wires(course: Course, seat: Seat) -> None:
+def _check_wires(channels: Channels, seat: Seat) -> None:
     """A pocket reaches under no wire."""
     point = np.array([seat.centre])
-    near = course.outliner.curves.nearest(point, seat.diameter_mm / 2 + 2 * course.diameter_mm)
-    short = (seat.diameter_mm + course.diameter_mm) / 2 - float(near.distance[0])
+    near = channels.outliner.curves.nearest(point, seat.diameter_mm / 2 + 2 * channels.diameter_mm)
+    short = (seat.diameter_mm + channels.diameter_mm) / 2 - float(near.distance[0])
     if short <= 1e-9:
         return
     smaller = f", or make it {2 * short:.1f} mm smaller" if 4 * short < seat.diameter_mm else ""

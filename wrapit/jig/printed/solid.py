@@ -16,7 +16,9 @@ from wrapit.jig.model import JigPlan, Seat
 if TYPE_CHECKING:
     from wrapit.kernel.terraces import Terrace, Terraced
 
+# How near the set-back top of a wall is to its true parallel: no wire touches it, so as near as one sees.
 CROWN_TOLERANCE_MM = 0.01
+# A smaller top is left out (the wall ends at the step): less than one blob of a nozzle of 0.4 mm, 0.8 long.
 LEAST_CROWN_MM2 = 0.3
 
 

@@ -12,6 +12,7 @@ from wrapit.jig.support import refuse_unheld
 from wrapit.jig.wall_face import CLEARANCE_TOLERANCE_MM
 from wrapit.wires.model import Wire
 
+# Light grey: wires of every metal stand out against it.
 COLOUR = "#c8ccd4"
 
 

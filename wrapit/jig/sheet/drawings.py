@@ -5,7 +5,7 @@ from __future__ import annotations
 from wrapit.jig.contours import Contour, FlatDrawing
 from wrapit.jig.sheet.model import LaserJig, LaserSheet
 
-# Between sheets that are drawn side by side.
+# Between sheets that are drawn side by side, so that one is seen to end.
 GAP_MM = 20.0
 TITLE = "Laser-cut plate jig"
 

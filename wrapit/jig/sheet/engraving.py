@@ -21,11 +21,14 @@ from wrapit.wires.model import Wire
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-# Engraved lines keep this distance from edges.
+# Engraved lines keep this distance from edges: more than the beam is wide, so that none runs into a cut. With
+# 0.18 mm the leaf has 2 % more engraved, and room for the one number that is left out.
 CLEAR_MM = 0.25
 # Heights and places of wire numbers, the next where there is no room for the one before.
 NUMBER_PLACES = ((2.5, "start"), (2.0, "start"), (1.6, "start"), (2.0, "anywhere"), (1.6, "anywhere"))
+# A part's own label; larger ones only take the laser longer.
 LARGEST_LABEL_MM = 4.0
+# A wire's line on the plate ends within STEP of where it leaves it; shorter remains than SHORTEST are dots.
 _STEP_MM = 0.05
 _SHORTEST_MM = 0.5
 

@@ -14,7 +14,8 @@ from wrapit.geometry.outlines.loops import rounded_rectangle
 from wrapit.jig.model import Hole
 from wrapit.wires.model import Wire
 
-# Sheet around a pin hole: as wide as the sheet is thick, within these bounds.
+# Sheet around a pin hole: as wide as the sheet is thick, within these bounds; nothing but the margin hangs on
+# them.
 _LEAST_WEB_MM, _MOST_WEB_MM = 1.5, 3.0
 
 

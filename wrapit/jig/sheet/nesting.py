@@ -16,7 +16,9 @@ from wrapit.jig.sheet.model import LaserPart, LaserSheet, Placed
 
 # Packing counts in whole hundredths of a millimetre.
 _UNITS_PER_MM = 100
+# Along the lower edge of a sheet: lettering of 2 mm over the bar's ticks, and free sheet above.
 STRIP_MM = 6.0
+# Long enough that 0.1 % is seen with a caliper.
 BAR_MM = 100.0
 
 

@@ -18,13 +18,16 @@ from wrapit.jig.sheet.engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.sheet.frame import Frame, frame_around
 from wrapit.jig.sheet.inlays import Inlay, Offset, make_inlays, moved_outline, polygon_of
 from wrapit.jig.sheet.model import LaserPart
+from wrapit.jig.wall_height import glued_height_mm
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
-# Sheet left between a start hole and a pocket.
-LEAST_WEB_MM = 0.5
+# Sheet left between a start hole and a pocket; `stage.HOLE_WEB_MM` keeps walls off, this catches the rest
+# (30 % up or down changes no part of leaf and butterfly).
+LEAST_HOLE_WEB_MM = 0.5
+# Height of a plate's own label, which fits the strip along its lower edge.
 LABEL_MM = 2.5
 # What tolerances of sheet thickness may take away from a wall's height.
 _SHEET_TOLERANCE_MM = 0.1
@@ -32,7 +35,7 @@ _SHEET_TOLERANCE_MM = 0.1
 
 def copies_needed(layers: int, diameter_mm: float, config: PlateConfig) -> int:
     """How many wall pieces are stacked, so that walls are as high as the wires' layers, two at least."""
-    needed_mm = config.sheet + max(2, layers) * diameter_mm - _SHEET_TOLERANCE_MM
+    needed_mm = config.sheet + glued_height_mm(layers, diameter_mm) - _SHEET_TOLERANCE_MM
     return max(1, math.ceil(needed_mm / config.wall_sheet))
 
 
@@ -119,7 +122,7 @@ def _clear_holes(
     kept, findings = [], []
     for hole in holes:
         rim = polygon_of(Region(hole.outline))
-        if min((pocket.distance(rim) for pocket in pockets), default=math.inf) >= LEAST_WEB_MM:
+        if min((pocket.distance(rim) for pocket in pockets), default=math.inf) >= LEAST_HOLE_WEB_MM:
             kept.append(hole)
             continue
         findings.append(

@@ -10,13 +10,15 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray, unit
-from wrapit.jig.channel import Course
-from wrapit.jig.wall_ground import TOUCH_MM, face_probes
+from wrapit.jig.channel import Channels
+from wrapit.jig.openings.room import FOOT_MM
+from wrapit.jig.wall_ground import FACE_STEP_MM, TOUCH_MM, face_probes
 
-FOOT_MM = 0.1  # between a hole's rim and a wall's foot
-INSIDE_MM = 0.15  # a wire's end is at least so far inside its hole
-FACE_STEP_MM = 0.1
-SHARES = (1.0, 0.5, 0.0)  # of the furthest move
+# How far out a hole may lie: the wire's end stays so far inside it (30 % up or down moves the
+# walls' area by 0.1 % and the support by 0.002).
+INSIDE_MM = 0.15
+# Places that are tried, as shares of the furthest one; each end chooses beside the others' choices, so often.
+SHARES = (1.0, 0.5, 0.0)
 SWEEPS = 2
 
 
@@ -37,7 +39,7 @@ class Slot:
     line: FloatArray
 
 
-def tail_slots(course: Course, diameter_mm: float, config: JigConfig) -> tuple[Slot, ...]:
+def tail_slots(channels: Channels, diameter_mm: float, config: JigConfig) -> tuple[Slot, ...]:
     """A slot for each end of each wire, in the order of the wires.
 
     A hole is wider than the channel, so around the end itself it takes the foot of the walls there. It
@@ -45,8 +47,8 @@ def tail_slots(course: Course, diameter_mm: float, config: JigConfig) -> tuple[S
     turns, or as much and more to the stretches. One end after the other takes its best place beside the
     others; all begin at the ends themselves.
     """
-    tails = [tail for wire in course.wires for tail in _tails(wire.centreline.poles, wire.name)]
-    faces = _faces(course)
+    tails = [tail for wire in channels.wires for tail in _tails(wire.centreline.poles, wire.name)]
+    faces = _faces(channels)
     furthest = max(0.0, diameter_mm / 2 - INSIDE_MM)
     choices = [[_line(tail, share * furthest, config.tail_slot) for share in SHARES] for tail in tails]
     taken = [[_taken(line, diameter_mm, faces) for line in lines] for lines in choices]
@@ -73,17 +75,17 @@ def _line(tail: Tail, moved_mm: float, slot_mm: float) -> FloatArray:
     return tail.end + np.array([[moved_mm], [moved_mm + slot_mm]]) * tail.outward
 
 
-def _faces(course: Course) -> tuple[Any, Any]:
+def _faces(channels: Channels) -> tuple[Any, Any]:
     """Points along the walls' faces that no channel takes away: those of the turns, those of stretches."""
     import shapely
 
     kinds: tuple[list[FloatArray], list[FloatArray]] = ([np.empty((0, 2))], [np.empty((0, 2))])
-    for wire in course.wires:
+    for wire in channels.wires:
         for turn in wire.turns:
-            kinds[turn.inside == "both"].append(face_probes(course, turn, FACE_STEP_MM, TOUCH_MM))
-    shapely.prepare(course.channels)
+            kinds[turn.inside == "both"].append(face_probes(channels, turn, FACE_STEP_MM, TOUCH_MM))
+    shapely.prepare(channels.area)
     points = [shapely.points(np.concatenate(kind)) for kind in kinds]
-    turns, stretches = (each[~shapely.contains(course.channels, each)] for each in points)
+    turns, stretches = (each[~shapely.contains(channels.area, each)] for each in points)
     return turns, stretches
 
 

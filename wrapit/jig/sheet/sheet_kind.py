@@ -8,9 +8,10 @@ from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.jig.made import GuidePage, Handling, JigMaker, Made, View, Wires
 from wrapit.jig.sheet.model import LaserJig
-from wrapit.jig.sheet.numbers import plate_numbers
+from wrapit.jig.sheet.sheet_numbers import plate_numbers
 from wrapit.jig.support import held_share
 
+# What a laser-cut jig lacks of a printed one, said where it is asked for.
 ONE_PLATE: Final = Finding(
     "note",
     "plate-of-one",
@@ -30,7 +31,7 @@ SEATS_PRINTED: Final = Finding(
 def make(wires: Wires, config: Config) -> Made:
     """The laser-cut jig of a piece; see `JigMaker`."""
     from wrapit.jig.sheet.drawings import sheet_drawings
-    from wrapit.jig.sheet.page import plan_laser_page
+    from wrapit.jig.sheet.gluing_page import plan_laser_page
     from wrapit.jig.sheet.stage import build_laser_jig
 
     laser, findings = build_laser_jig(wires, config.jig, config.plate)
@@ -69,4 +70,5 @@ def _views(laser: LaserJig, wires: Wires) -> tuple[View, ...]:
     return tuple(views)
 
 
+# The kind, as `jig.kinds` lists it.
 SHEET: Final = JigMaker("sheet", solid=False, make=make, held=held)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from ezdxf.math import bulge_to_arc
 
-from tests.exports.test_laser import JIG, PIECES, laser_of
+from tests.jig.sheet.laser import JIG, PIECES, laser_of
 from wrapit.config import PlateConfig
 from wrapit.exports.flat_files import write_flat_files
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region

@@ -10,22 +10,25 @@ from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray, Line, Loop
 from wrapit.geometry.outlines.exact import Outliner
 from wrapit.geometry.outlines.loops import circle
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import CHANNEL_PAD_MM, CHANNEL_SLACK_MM, Channels
 from wrapit.jig.model import Hole
-from wrapit.jig.tails import FOOT_MM, tail_slots
+from wrapit.jig.openings.room import FOOT_MM
+from wrapit.jig.openings.tails import tail_slots
 
+# Wider than the wire, so that a bent tail slips through.
 HOLE_OVER_WIRE_MM = 0.5
-WEB_MM = 0.8  # holes with less plate between them become one
-_PAD_MM, _SLACK_MM = 3e-4, 1.2e-3
+# Holes with less plate between them become one: two lines of a nozzle of 0.4 mm, as `jig.min_wall_width`.
+# 30 % up or down changes no hole of leaf and butterfly.
+JOINED_MM = 0.8
 
 
-def start_holes(course: Course, config: JigConfig) -> tuple[Hole, ...]:
+def start_holes(channels: Channels, config: JigConfig) -> tuple[Hole, ...]:
     """A hole for each end of each wire, with a slot along the tail; ends that meet share one hole."""
     import shapely
 
-    diameter = max(config.min_hole, course.diameter_mm + HOLE_OVER_WIRE_MM)
-    slots = tail_slots(course, diameter, config)
-    near = shapely.buffer([shapely.LineString(slot.line) for slot in slots], (diameter + WEB_MM) / 2)
+    diameter = max(config.min_hole, channels.diameter_mm + HOLE_OVER_WIRE_MM)
+    slots = tail_slots(channels, diameter, config)
+    near = shapely.buffer([shapely.LineString(slot.line) for slot in slots], (diameter + JOINED_MM) / 2)
     clusters = shapely.get_parts(shapely.union_all(near))
     clusters = sorted(clusters, key=lambda part: tuple(np.round(part.bounds, 6)))
     holes = []
@@ -61,10 +64,12 @@ def _outline(tails: list[FloatArray], diameter: float) -> Loop:
         x, y = (float(value) for value in starts[0])
         return circle((x, y), diameter / 2)
     edges = [Line(_xy(a), _xy(b)) for a, b in lines]
-    grown = shapely.buffer([shapely.LineString(line) for line in lines], diameter / 2 + _PAD_MM, quad_segs=32)
+    grown = shapely.buffer(
+        [shapely.LineString(line) for line in lines], diameter / 2 + CHANNEL_PAD_MM, quad_segs=32
+    )
     whole = shapely.union_all(grown)
     ring = shapely.Polygon(whole.exterior).exterior
-    return Outliner.of(edges, diameter / 2, _SLACK_MM).loop(shapely.Polygon(ring).normalize().exterior)
+    return Outliner.of(edges, diameter / 2, CHANNEL_SLACK_MM).loop(shapely.Polygon(ring).normalize().exterior)
 
 
 def _spanning(points: list[FloatArray]) -> list[tuple[FloatArray, FloatArray]]:

@@ -12,7 +12,8 @@ from wrapit.config import GuideConfig, JigConfig, WireConfig
 from wrapit.errors import JigError
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.instructions.plan import plan_guide
-from wrapit.jig.printed.kind import handling
+from wrapit.jig.printed.plan import plan_jig
+from wrapit.jig.printed.printed_kind import handling
 from wrapit.jig.printed.seats import mirrored_seats
 from wrapit.jig.printed.stage import build_jig
 
@@ -41,6 +42,13 @@ def test_a_post_rises_through_the_bead() -> None:
     assert small.plan.seats[0].post_height_mm == pytest.approx(2.5), (
         "a bead of 4 mm ends 2.5 mm over the plate"
     )
+
+
+def test_a_post_is_as_high_as_the_walls_of_thick_wire() -> None:
+    settings = config(seats=[seat(0, 16, 20, post="1.2 mm")])
+    plan, _ = plan_jig(wires_of([arcs((0, 0), 0, (16, 270))], settings, 2.0), settings)
+    assert {wall.height_mm for wall in plan.walls} == {5.5}
+    assert plan.seats[0].post_height_mm == 5.5
 
 
 def test_walls_and_numbers_keep_off_the_pocket() -> None:

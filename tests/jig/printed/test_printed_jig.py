@@ -1,9 +1,8 @@
-"""Jigs for wires with known answers, and for wires drawn at random."""
+"""Printed jigs for wires with known answers, and for wires drawn at random."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -16,11 +15,10 @@ from wrapit.config import JigConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Loop
 from wrapit.geometry.outlines.polygons import polygon_of, region_area_mm2
-from wrapit.jig.channel import Course
-from wrapit.jig.grouping import fewest_groups
+from wrapit.jig.channel import Channels
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.stage import build_jig
-from wrapit.jig.support import stretch_support, support_by_wire, total_support
+from wrapit.jig.support import stretch_support, total_support
 from wrapit.jig.wall_face import plain_finding, wall_face
 
 REACH_MM = AWG18_MM / 2 + 0.2
@@ -80,12 +78,12 @@ def test_functional_faces_are_exact(clearance: float) -> None:
     wires = wires_of([arcs((0, 0), 0, (9, 180), (5, -200), (14, 90))], settings)
     jigs, _ = build_jig(wires, settings)
     (jig,) = jigs.jigs
-    course = Course.of(wires, settings)
+    channels = Channels.of(wires, settings)
     for support in jig.support:
-        _, points, normals, _ = course.stations(support.turn, 0.05)
+        _, points, normals, _ = channels.stations(support.turn, 0.05)
         side = 1 if support.turn.inside == "left" else -1
         faces = shapely.union_all([polygon_of(wall, 1e-4).boundary for wall in jig.walls])
-        apart = shapely.distance(shapely.points(points + side * course.reach_mm * normals), faces)
+        apart = shapely.distance(shapely.points(points + side * channels.reach_mm * normals), faces)
         assert np.median(apart) < 1e-3
         assert (apart < 1e-3).mean() == pytest.approx(support.share, abs=0.03)
 
@@ -133,25 +131,6 @@ def test_numbers_are_engraved_or_missed() -> None:
     engraved = sum(region_area_mm2(stroke) for stroke in label.strokes) * label.depth_mm
     assert engraved > 0.5
     assert without.volume_mm3 - with_numbers.volume_mm3 == pytest.approx(engraved, rel=0.02)
-
-
-def test_split_frees_a_packed_piece() -> None:
-    # Rings 0.9 mm apart: only the first and the last leave room for a wall between them.
-    rings = [circle(9 + 0.9 * i) for i in range(4)]
-    single, _ = build_jig(wires_of(rings), config(split="single", least_support=0))
-    weakest = min(support_by_wire(single.jigs[0].support).values())
-    jigs, findings = build_jig(wires_of(rings), config(min_turn_support=weakest + 0.05))
-    assert jigs.split == "per-wire"
-    assert len(jigs.jigs) == 3
-    assert sorted(name for jig in jigs.jigs for name in jig.wires) == [f"wire-0{i}" for i in range(1, 5)]
-    better = {name: share for jig in jigs.jigs for name, share in support_by_wire(jig.support).items()}
-    assert min(better.values()) > weakest + 0.05
-    assert "split" in {finding.code for finding in findings}
-
-
-def test_every_wire_alone_on_request() -> None:
-    jigs, _ = build_jig(wires_of([circle(9), circle(9, (30, 0))]), config(split="per-wire"))
-    assert [jig.name for jig in jigs.jigs] == ["jig-wire-01", "jig-wire-02"]
 
 
 def test_plate_must_fit_the_bed() -> None:
@@ -220,65 +199,14 @@ def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPat
 
     wires = wires_of([circle(11)])
     plan, _ = plan_jig(wires, JigConfig())
-    course = Course.of(wires, JigConfig())
-    good = wall_face(course, plan.walls[0])
+    channels = Channels.of(wires, JigConfig())
+    good = wall_face(channels, plan.walls[0])
     assert good.exact
-    nearer = Outliner.of(course.chains, course.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
+    nearer = Outliner.of(channels.chains, channels.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
     monkeypatch.setattr(Outliner, "region", lambda self, polygon: nearer)
-    bad = wall_face(course, plan.walls[0])
+    bad = wall_face(channels, plan.walls[0])
     assert not bad.exact
     assert bad.gap_mm > 0.2 - 1e-3
     assert region_area_mm2(bad.region) == pytest.approx(region_area_mm2(good.region), rel=1e-3)
     (finding,) = plain_finding((good, bad), "jig")
     assert finding.code == "plain-wall"
-
-
-def test_split_where_only_the_tail_of_another_wire_is_in_the_way() -> None:
-    # A corner, and a wire that ends in it: its hole takes the ground that the corner's wall would stand on.
-    corner = arcs((0, 0), 0, (15, 0), (1.3, 100), (15, 0))
-    hook = arcs((15.8, 0.4), math.radians(-40), (12, 0), (6, 90), (6, 0)).reversed()
-    single, _ = build_jig(wires_of([corner, hook]), config(split="single"))
-    assert support_by_wire(single.jigs[0].support)["wire-01"] < 0.5
-    jigs, findings = build_jig(wires_of([corner, hook]), config())
-    assert [jig.name for jig in jigs.jigs] == ["jig-wire-01", "jig-wire-02"]
-    assert support_by_wire(jigs.jigs[0].support)["wire-01"] > 0.95
-    assert "split" in {finding.code for finding in findings}
-
-
-def test_a_wire_with_nothing_to_hold_makes_way() -> None:
-    corner = arcs((0, 0), 0, (15, 0), (1.3, 100), (15, 0))
-    straight_wire = line((28, -10), (15.8, 0.4))
-    jigs, findings = build_jig(wires_of([corner, straight_wire]), config())
-    (jig,) = jigs.jigs
-    assert (jig.name, jig.wires) == ("jig", ("wire-01",))
-    assert support_by_wire(jig.support)["wire-01"] > 0.95
-    assert {finding.code: finding.where for finding in findings} == {"no-jig": "wire-02"}
-    (only_one,) = build_jig(wires_of([straight_wire]), config())[0].jigs
-    assert only_one.wires == ("wire-01",)
-
-
-def _partitions(members: list[int]) -> Iterator[list[list[int]]]:
-    if not members:
-        yield []
-        return
-    first, rest = members[0], members[1:]
-    for groups in _partitions(rest):
-        yield [[first], *groups]
-        for index in range(len(groups)):
-            yield [*groups[:index], [first, *groups[index]], *groups[index + 1 :]]
-
-
-@given(st.integers(1, 6), st.integers(0, 1000))
-def test_groups_are_the_fewest_of_all_partitions(count: int, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    losses = rng.uniform(0, 0.3, (count, count)) * (rng.uniform(size=(count, count)) < 0.6)
-    np.fill_diagonal(losses, 0.0)
-    spare = rng.uniform(0.02, 0.4, count)
-
-    def holds(groups: list[list[int]]) -> bool:
-        return all(sum(losses[i, j] for j in group) <= spare[i] for group in groups for i in group)
-
-    found = fewest_groups(losses, spare)
-    assert sorted(i for group in found for i in group) == list(range(count))
-    assert holds(found)
-    assert len(found) == min(len(groups) for groups in _partitions(list(range(count))) if holds(groups))

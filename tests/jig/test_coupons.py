@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 from shapely import Point, Polygon
 
+from tests.jig.metal import line, wires_of
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import JigError
 from wrapit.exports.plate_dxf import write_dxf
 from wrapit.geometry import Loop
 from wrapit.jig.contours import Contour
 from wrapit.jig.coupons import clearance_coupon, kerf_coupon
+from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.pipeline.coupon_files import write_printed
 
@@ -97,3 +99,16 @@ def test_the_printed_coupon_is_one_sound_solid(tmp_path: Path) -> None:
     expected = polygon_of(coupon.base).area * coupon.base_mm
     expected += sum(polygon_of(region).area * (top - coupon.base_mm) for region, top in coupon.terraces)
     assert volume == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("diameter_mm", "asked", "height_mm"),
+    [(0.5, "4 mm", 4.0), (0.5, "7 mm", 7.0), (0.5, "1 mm", 2.5), (2.0, "4 mm", 5.5), (2.0, "5.6 mm", 5.6)],
+)
+def test_the_coupons_walls_are_as_high_as_the_jigs(diameter_mm: float, asked: str, height_mm: float) -> None:
+    settings = JigConfig(min_wall_height=asked)
+    coupon = clearance_coupon(diameter_mm, settings)
+    assert max(top for _, top in coupon.terraces) - coupon.base_mm == pytest.approx(height_mm)
+    wires = wires_of([line((0, 0), (60, 0))], settings, diameter_mm)
+    plan, _ = plan_jig(wires, settings)
+    assert [wall.height_mm for wall in plan.walls] == pytest.approx([height_mm] * 2)

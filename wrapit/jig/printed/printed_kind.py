@@ -7,7 +7,7 @@ from typing import Final
 from wrapit.config import Config
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires
 from wrapit.jig.model import JigSet
-from wrapit.jig.printed.numbers import jig_numbers
+from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.support import held_share
 
 
@@ -57,4 +57,5 @@ def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
     )
 
 
+# The kind, as `jig.kinds` lists it.
 PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held)

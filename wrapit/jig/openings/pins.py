@@ -6,19 +6,24 @@ import math
 from typing import Any
 
 from wrapit.config import JigConfig
-from wrapit.jig.channel import Course
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Pin
+from wrapit.jig.openings.room import PLATE_WEB_MM
 from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 from wrapit.wires.model import Turn
 
+# Which pins there are: rods and drills come in steps of 0.1 mm; no measurement set the thinnest.
 SMALLEST_PIN_MM = 0.6
-PIN_STEP_MM = 0.1  # rods and drills come in steps of this
+PIN_STEP_MM = 0.1
+# A turn with wall along this share needs no pin (30 % up or down changes no pin of leaf and butterfly).
+HELD = 0.5
+# Where the tightest place of a turn is looked for: a tenth of the smallest pin and less.
 STEP_MM = 0.05
-HELD = 0.5  # a turn with wall along this share needs no pin
-WEB_MM = 0.5  # plate between a pin's hole and anything else
+# How far a pin may reach into a channel: polygons of pin and channel err by less.
+TOUCHING_MM = 0.02
 
 
-def pin_holes(course: Course, config: JigConfig, holes: Any, walls: Any) -> tuple[Pin, ...]:
+def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> tuple[Pin, ...]:
     """A pin in the middle of each turn that is narrower than the narrowest wall and that no wall holds.
 
     `walls` is what could be printed without pins: between legs that part, a wall's tip can be narrower
@@ -32,13 +37,14 @@ def pin_holes(course: Course, config: JigConfig, holes: Any, walls: Any) -> tupl
         return ()
     pins: list[Pin] = []
     taken = holes
-    for wire in course.wires:
+    for wire in channels.wires:
         for turn in wire.turns:
-            pin = _pin(course, turn, config)
-            if pin is None or _held(course, turn, walls) >= HELD:
+            pin = _pin(channels, turn, config)
+            if pin is None or _held(channels, turn, walls) >= HELD:
                 continue
             disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
-            if course.channels.intersects(disc.buffer(-0.02)) or taken.intersects(disc.buffer(WEB_MM)):
+            in_the_way = channels.area.intersects(disc.buffer(-TOUCHING_MM))
+            if in_the_way or taken.intersects(disc.buffer(PLATE_WEB_MM)):
                 continue
             pins.append(pin)
             taken = taken.union(disc)
@@ -50,28 +56,28 @@ def pin_obstacles(pins: tuple[Pin, ...]) -> Any:
     import shapely
 
     return shapely.union_all(
-        [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2 + WEB_MM, quad_segs=16) for pin in pins]
+        [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2 + PLATE_WEB_MM, quad_segs=16) for pin in pins]
     )
 
 
-def _held(course: Course, turn: Turn, walls: Any) -> float:
+def _held(channels: Channels, turn: Turn, walls: Any) -> float:
     """The share of a turn's inside that has a wall."""
     import shapely
 
-    probes = shapely.points(face_probes(course, turn, STEP_MM, TOUCH_MM))
+    probes = shapely.points(face_probes(channels, turn, STEP_MM, TOUCH_MM))
     return float(shapely.contains(walls, probes).mean())
 
 
-def _pin(course: Course, turn: Turn, config: JigConfig) -> Pin | None:
+def _pin(channels: Channels, turn: Turn, config: JigConfig) -> Pin | None:
     if turn.inside == "both" or turn.max_curvature_per_mm <= 0:
         return None
     side = 1.0 if turn.inside == "left" else -1.0
-    _, points, normals, curvature = course.stations(turn, STEP_MM)
+    _, points, normals, curvature = channels.stations(turn, STEP_MM)
     tightest = int((side * curvature).argmax())
     bend = float(side * curvature[tightest])
     if bend <= 0:
         return None
-    room = 2 * (1 / bend - course.reach_mm)
+    room = 2 * (1 / bend - channels.reach_mm)
     diameter = math.floor(room / PIN_STEP_MM + 1e-6) * PIN_STEP_MM
     if room >= config.min_wall_width or diameter < SMALLEST_PIN_MM - 1e-9:
         return None
