@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
@@ -73,7 +74,7 @@ def refuse_unheld(support: Iterable[TurnSupport], config: JigConfig) -> None:
     held = held_share(support)
     if held < config.least_support:
         raise UnheldError(
-            f"walls would hold {held:.0%} of the turns and long stretches, "
+            f"walls would hold {math.floor(100 * held)}% of the turns and long stretches, "
             f"less than jig.least_support ({config.least_support:.0%})"
         )
 

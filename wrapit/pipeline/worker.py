@@ -102,6 +102,12 @@ def _ended(exit_code: int | None, where: str) -> KernelError:
     """Why the process is gone: killed from outside is what systems do that run out of memory."""
     if exit_code == -signal.SIGKILL:
         return _out_of_memory(where)
+    if exit_code == 1:  # Python's own way to end; the kernel's crashes are signals
+        return KernelError(
+            "the solid modeller's process ended before its work",
+            where,
+            "a script calls wrapit.build below `if __name__ == '__main__':`; else please report the drawing",
+        )
     return KernelError(
         f"the solid modeller crashed (exit code {exit_code})",
         where,

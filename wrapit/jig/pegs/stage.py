@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from typing import Final
 
@@ -22,7 +23,7 @@ def make(wires: Wires, config: Config) -> Made:
     plan = _plan(wires, config)
     if plan.held_share < config.jig.least_support:
         raise UnheldError(
-            f"pegs would hold {plan.held_share:.0%} of the turns, "
+            f"pegs would hold {math.floor(100 * plan.held_share)}% of the turns, "
             f"less than jig.least_support ({config.jig.least_support:.0%})"
         )
     board = plan.board
