@@ -55,6 +55,14 @@ def test_step_has_names_colours_and_volumes(tmp_path: Path) -> None:
     assert "PRODUCT('knot wires'" in text
 
 
+@pytest.mark.parametrize("name", ["Blüte", "花", "𝒳 and ß", "O'Neill", "plain"])
+def test_step_names_of_all_scripts_are_read_back(tmp_path: Path, name: str) -> None:
+    part = wire_parts()[2]
+    write_step(tmp_path / "named.step", f"{name} (all)", [FilePart(name, part.solid, part.colour)])
+    assert (tmp_path / "named.step").read_bytes().isascii()
+    assert product_names(tmp_path / "named.step") == {name, f"{name} (all)"}
+
+
 def test_step_numbers_count_up_and_refer_backwards(tmp_path: Path, jig: Jig) -> None:
     import re
 
@@ -136,3 +144,25 @@ def read_step(path: Path) -> dict[str, tuple[list[float], object]]:
         shape = child.obj.val() if hasattr(child.obj, "val") else child.obj
         seen[child.name] = (colour, shape.wrapped)
     return seen
+
+
+def product_names(path: Path) -> set[str]:
+    """Names as OpenCascade's own reader has them, in any script."""
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    document, reader = TDocStd_Document(TCollection_ExtendedString("read")), STEPCAFControl_Reader()
+    reader.ReadFile(str(path))
+    reader.Transfer(document)
+    labels = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetShapes(labels)
+    names = set()
+    for index in range(1, labels.Length() + 1):
+        name = TDataStd_Name()
+        labels.Value(index).FindAttribute(TDataStd_Name.GetID_s(), name)
+        names.add(TCollection_AsciiString(name.Get()).ToCString())
+    return names
