@@ -8,11 +8,11 @@ work is counted here, in one pass over the XML, and refused where it would take 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from wrapit.drawing.signatures import kind_of
+from wrapit.drawing.svg.element import Element
 from wrapit.drawing.svg.limits import DEEPEST, refuse_endless
 from wrapit.drawing.svg.texts import refuse_slow_texts
 from wrapit.errors import DrawingError
@@ -29,27 +29,6 @@ _SHOWN = {"image", "use", "feimage", "lineargradient", "radialgradient", "patter
 # Attributes of numbers, in which svgelements takes these words for numbers too.
 _NUMERIC = re.compile(r"d|points|x[12]?|y[12]?|c[xy]|r[xy]?|width|height")
 _NO_NUMBER = re.compile(r"(?<![\w#-])(?:[-+]?nan|[-+]?inf(?:inity)?)(?![\w-])", re.IGNORECASE)
-
-
-@dataclass(eq=False)
-class Element:
-    """An element of the XML; names are `namespace}name`, or the bare name without a namespace."""
-
-    name: str
-    attributes: dict[str, str]
-    line: int
-    children: list[Element] = field(default_factory=list)
-    text: list[str] = field(default_factory=list)
-
-    @property
-    def tag(self) -> str:
-        """The name without its namespace."""
-        return self.name.rpartition("}")[2]
-
-    @property
-    def link(self) -> str | None:
-        """What it refers to; the newer attribute counts where both are there."""
-        return self.attributes.get("href", self.attributes.get("http://www.w3.org/1999/xlink}href"))
 
 
 def safe_document(path: Path) -> tuple[bytes, Element]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from wrapit.errors import DrawingError
 
 if TYPE_CHECKING:
-    from wrapit.drawing.svg.document import Element
+    from wrapit.drawing.svg.element import Element
 
 # All copies counted. Reading as many takes a few seconds, and no jewellery has so many.
 MOST_SHAPES = 20_000

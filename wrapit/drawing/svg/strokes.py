@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.svg.document import Element, paths_of, safe_document
+from wrapit.drawing.svg.document import paths_of, safe_document
+from wrapit.drawing.svg.element import Element
 from wrapit.drawing.svg.limits import refuse_parts
 from wrapit.drawing.svg.planar import Curve
 from wrapit.errors import DrawingError

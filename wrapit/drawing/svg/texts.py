@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from wrapit.errors import DrawingError
 
 if TYPE_CHECKING:
-    from wrapit.drawing.svg.document import Element
+    from wrapit.drawing.svg.element import Element
 
 # Some hundreds of blanks, and values of thousands of characters, are where the patterns begin to take
 # seconds; programs write a few dozen.
