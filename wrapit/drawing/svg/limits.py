@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from wrapit.drawing.svg.element import Element
 from wrapit.errors import DrawingError
-
-if TYPE_CHECKING:
-    from wrapit.drawing.svg.element import Element
 
 # All copies counted. Reading as many takes a few seconds, and no jewellery has so many.
 MOST_SHAPES = 20_000

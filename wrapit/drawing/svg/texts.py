@@ -8,12 +8,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from wrapit.drawing.svg.element import Element
 from wrapit.errors import DrawingError
-
-if TYPE_CHECKING:
-    from wrapit.drawing.svg.element import Element
 
 # Some hundreds of blanks, and values of thousands of characters, are where the patterns begin to take
 # seconds; programs write a few dozen.
