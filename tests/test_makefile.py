@@ -15,7 +15,7 @@ from subprocess import PIPE
 import pytest
 
 from tests.conftest import CONFIGS
-from wrapit.pipeline.stages import Stage
+from wrapit.pipeline.work import Stage
 
 ROOT = Path(__file__).parent.parent
 NAMES = sorted(path.stem for path in CONFIGS.glob("*.yaml"))

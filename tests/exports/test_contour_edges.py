@@ -10,7 +10,7 @@ import pytest
 from svgelements import Path as SvgPath
 
 from tests.exports.pieces_for_tests import arc_chain, hairpin
-from tests.exports.test_laser import laser_of
+from tests.jig.sheet.laser import laser_of
 from wrapit.config import PlateConfig
 from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.plate_svg import plate_svg

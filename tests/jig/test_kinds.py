@@ -94,7 +94,7 @@ def test_all_kinds_at_once(tmp_path: Path, processes: list[Worker]) -> None:
 
 def test_a_kind_that_would_hold_too_little_is_left_out_alone(tmp_path: Path) -> None:
     config = piece(
-        tmp_path, 60, jigs=["pegs", "sheet"], outputs=["dxf", "html"], pegs={"diameters": ["30 mm"]}
+        tmp_path, 60, jigs=["sheet", "pegs"], outputs=["dxf", "html"], pegs={"diameters": ["30 mm"]}
     )
     result = build(config, tmp_path / "out")
     assert codes(result, "error") == ["jig-left-out"]

@@ -144,8 +144,10 @@ def _killed() -> None:
 
 
 def test_a_worker_that_the_system_killed_ran_out_of_memory() -> None:
-    with Worker() as worker, pytest.raises(KernelError, match=r"memory runs out.*-j1") as lost:
-        worker.run("piece: jig", 60, _killed)
+    with Worker() as worker:
+        worker.start(_killed)
+        with pytest.raises(KernelError, match=r"memory runs out.*-j1") as lost:
+            worker.result("piece: jig", 60)
     assert lost.value.where == "piece: jig"
 
 

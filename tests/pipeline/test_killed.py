@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 import uuid
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,14 @@ pytestmark = pytest.mark.skipif(
 )
 SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT]
 INTERRUPTED = "interrupted; earlier files are untouched"
+
+
+@pytest.fixture(autouse=True)
+def _heeded() -> Iterator[None]:
+    """A terminal's end counts here, even where these tests were started by nohup."""
+    shown = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, shown)
 
 
 def _process(mark: str, config: Path, *arguments: str) -> subprocess.Popen[str]:

@@ -10,8 +10,8 @@ import pytest
 from tests.pipeline.folders import held, listed, written_piece
 from wrapit.pipeline.build import build
 from wrapit.pipeline.output.ownership import REPORT
-from wrapit.pipeline.stages import STAGES, Stage
 from wrapit.pipeline.summary import summary_lines
+from wrapit.pipeline.work import STAGES, Stage
 
 KERNEL_FREE: tuple[Stage, ...] = STAGES[:3]
 

@@ -33,7 +33,7 @@ def _spiral(turns: int, start_rad: float) -> str:
     return "M " + " L ".join(f"{x:.3f} {y:.3f}" for x, y in points)
 
 
-DRAWINGS = {"tiny": [ZIGZAG], "dense": [_spiral(5, 0.0), _spiral(5, math.pi)]}
+DRAWINGS = {"tiny": [ZIGZAG], "dense": [_spiral(6, 0.0), _spiral(6, math.pi)]}
 SIZES = {"tiny": "4 mm", "dense": "25 mm"}
 
 

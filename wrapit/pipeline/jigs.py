@@ -20,8 +20,8 @@ MIRRORED: Final = "-mirrored"
 def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
     """Makes every kind that the config asks for; solids' files, and the wires' own, go to `folder`.
 
-    A kind that would hold too little is left out, and an error among the findings says so. Raises UnheldError
-    where that is true of all of them, and what `JigMaker.make` raises.
+    Raises UnheldError where the first kind would hold too little, and what `JigMaker.make` raises. A further
+    kind that would is left out, and an error among the findings says so.
     """
     from wrapit.jig.kinds import JIGS
 
@@ -31,14 +31,11 @@ def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
         if solid is not None and worker is not None:
             worker.start(make_solids, solid.kind, work.laid, work.config, folder)
         made: dict[JigKind, Made | UnheldError] = {}
-        try:
-            for maker in makers:
-                if not maker.solid:
-                    made[maker.kind] = _made(maker, work)
-        finally:
-            # Asked for even if a flat jig failed: the process is free for nothing else before.
-            if solid is not None and worker is not None:
-                made[solid.kind] = _solid_made(work, worker, "jig")
+        for maker in makers:
+            if not maker.solid:
+                made[maker.kind] = _made(maker, work)
+        if solid is not None and worker is not None:
+            made[solid.kind] = _solid_made(work, worker, "jig")
         _take(work, {maker.kind: made[maker.kind] for maker in makers})
         if worker is not None and folder is not None and "step" in work.config.outputs:
             _write_wires(work, worker, folder, "")
@@ -68,9 +65,9 @@ def _awaited(work: Work, worker: Worker, what: str) -> Any:
 
 def _take(work: Work, made: dict[JigKind, Made | UnheldError]) -> None:
     """Puts what was made into the work, in the order of the config."""
-    refused = {kind: each for kind, each in made.items() if isinstance(each, UnheldError)}
-    if len(refused) == len(made):
-        raise next(iter(refused.values()))
+    first = next(iter(made.values()))
+    if isinstance(first, UnheldError):
+        raise first
     for kind, each in made.items():
         if isinstance(each, UnheldError):
             work.findings.append(_left_out(kind, each))

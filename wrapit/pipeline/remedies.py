@@ -56,7 +56,7 @@ def smallest_size(does: Callable[[int], bool], size_mm: float) -> int | None:
 
 
 def held_share(config: Config, drawing_path: Path) -> float:
-    """The share of its turns that a piece's best jig would hold; 0 where none can be planned at all."""
+    """The share of its turns that a piece's first kind of jig would hold; 0 where it can't be planned."""
     from wrapit.decomposition.stage import decompose
     from wrapit.drawing.stage import trace
     from wrapit.jig.kinds import JIGS
@@ -69,7 +69,7 @@ def held_share(config: Config, drawing_path: Path) -> float:
         wires, _ = draw_wires(solution, config)
         if config.jig.springback == "compensate":
             wires = tuple(bent.wire for bent in overbend_wires(wires, config)[0])
-        return max(JIGS[kind].held(wires, config) for kind in config.jigs)
+        return JIGS[config.jigs[0]].held(wires, config)
     except WrapItError:
         return 0.0  # what can't be planned is no remedy
 

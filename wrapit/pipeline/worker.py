@@ -9,6 +9,7 @@ import os
 import signal
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable, Sequence
 from multiprocessing.connection import Connection, wait
@@ -31,6 +32,7 @@ class Worker:
         self._connection, theirs = context.Pipe()
         self._process = context.Process(target=_serve, args=(theirs, tuple(preload)), daemon=True)
         self._theirs = theirs
+        self._started_s = time.monotonic()
 
     def __enter__(self) -> Self:
         try:
@@ -50,17 +52,19 @@ class Worker:
 
     def start(self, function: Callable[..., Any], *arguments: Any) -> None:
         """Sends a function; `result` waits for what it returns."""
+        self._started_s = time.monotonic()
         with contextlib.suppress(BrokenPipeError):  # `result` says what became of the process
             self._connection.send((function, arguments))
 
     def result(self, where: str, timeout_s: float) -> Any:
         """What the function returned; its WrapItErrors come through.
 
-        Raises KernelError, naming `where`, when the process crashes or doesn't end in time, OSError when it
-        couldn't write.
+        Raises KernelError, naming `where`, when the process crashes or isn't done `timeout_s` after it was
+        started, OSError when it couldn't write.
         """
         try:
-            if not self._connection.poll(timeout_s):
+            left_s = self._started_s + timeout_s - time.monotonic()
+            if not self._connection.poll(max(0.0, left_s)):
                 self._stop()
                 raise KernelError(
                     f"the solid modeller didn't finish within {timeout_s:.0f} s",
