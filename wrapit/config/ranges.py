@@ -6,6 +6,7 @@ A mark makes validator, message and schema of its key, so that the three never d
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, Literal
@@ -19,20 +20,20 @@ ROUNDING: Final = 1e-9
 """Share of a bound by which a value may miss it: `180 deg` is π only nearly."""
 
 
-class Mark:
+class Mark(ABC):
     """Metadata of an annotated type that reads and writes its values, and describes them in the schema."""
 
+    @abstractmethod
     def check(self, value: object) -> Any:
         """The value as the program uses it; ValueError `problem; remedy` otherwise."""
-        raise NotImplementedError
 
+    @abstractmethod
     def write(self, value: Any) -> Any:
         """The value as the config spells it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def describe(self) -> dict[str, Any]:
         """Its part of the JSON schema."""
-        raise NotImplementedError
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
