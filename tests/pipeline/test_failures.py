@@ -68,7 +68,7 @@ def _cases(folder: Path) -> dict[str, tuple[int, list[str]]]:
     build = ["build", str(config), "-o", str(folder / "out")]
     return {
         "export": (1, ["build", str(config), "-o", "/proc/out"]),
-        "kernel": (1, [*build, "--set", "jig.time_limit=1 s"]),
+        "kernel": (1, [*build, "--set", "jig.time_limit=1 s", "--set", "jigs=[printed]"]),
         "config": (2, [*build, "--set", "size=40"]),
         "usage": (2, [*build, "--frobnicate"]),
         "drawing": (3, ["build", str(folder / "empty.yaml")]),
@@ -152,7 +152,7 @@ def test_a_worker_that_the_system_killed_ran_out_of_memory() -> None:
 
 
 def test_a_time_limit_is_kept_and_can_be_raised(tmp_path: Path) -> None:
-    config = written_piece(tmp_path, outputs=["stl"])
+    config = written_piece(tmp_path, outputs=["stl"], jigs=["printed"])
     out = ("-o", tmp_path / "out")
     start = time.monotonic()
     refused(wrapit("build", config, *out, "--set", "jig.time_limit=1 s"), 1, "within 1 s", "jig.time_limit")
