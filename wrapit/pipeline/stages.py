@@ -43,11 +43,14 @@ def run_stages(work: Work, folder: Path | None) -> None:
 
 
 def _needs_kernel(work: Work) -> bool:
-    """Whether solids are made: those of a jig, or the wires' own."""
+    """Whether solids are made: the wires' own, or those of a jig."""
+    if not work.reaches("jig"):
+        return False
+    if work.reaches("exports") and "step" in work.config.outputs:
+        return True  # known without loading the kinds, so that the kernel starts to load at once
     from wrapit.jig.kinds import JIGS
 
-    solid = any(JIGS[kind].solid for kind in work.config.jigs)
-    return (solid and work.reaches("jig")) or ("step" in work.config.outputs and work.reaches("exports"))
+    return any(JIGS[kind].solid for kind in work.config.jigs)
 
 
 def _trace(work: Work, folder: Path | None) -> None:
