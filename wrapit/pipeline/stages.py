@@ -43,14 +43,11 @@ def run_stages(work: Work, folder: Path | None) -> None:
 
 
 def _needs_kernel(work: Work) -> bool:
-    """Whether solids are made: the wires' own, or those of a jig."""
-    if not work.reaches("jig"):
-        return False
-    if work.reaches("exports") and "step" in work.config.outputs:
-        return True  # known without loading the kinds, so that the kernel starts to load at once
+    """Whether solids are made: those of a jig, or the wires' own."""
     from wrapit.jig.kinds import JIGS
 
-    return any(JIGS[kind].solid for kind in work.config.jigs)
+    solid = any(JIGS[kind].solid for kind in work.config.jigs)
+    return (solid and work.reaches("jig")) or ("step" in work.config.outputs and work.reaches("exports"))
 
 
 def _trace(work: Work, folder: Path | None) -> None:
