@@ -10,6 +10,7 @@ import pytest
 from tests.jig.metal import arcs, circle, line, scribble, wires_of
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
+from wrapit.kernel.heights import HEIGHT_TOLERANCE_MM, smooth_heights
 from wrapit.kernel.measures import is_valid, size_mm, volume_mm3
 from wrapit.kernel.sweeps import round_wire, torus
 
@@ -23,6 +24,16 @@ def sampled(edge: object, count: int) -> np.ndarray:
     curve = BRepAdaptor_Curve(edge)
     u = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
     return np.array([(p.X(), p.Y(), p.Z()) for p in (curve.Value(float(t)) for t in u)])
+
+
+def faces_of(solid: object) -> int:
+    from OCP.TopAbs import TopAbs_FACE
+    from OCP.TopExp import TopExp
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    found = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(solid, TopAbs_FACE, found)
+    return found.Extent()
 
 
 @pytest.mark.parametrize(
@@ -81,6 +92,29 @@ def test_random_wires_are_valid() -> None:
     for wire in wires_of([scribble(rng, 60, 7) for _ in range(3)]):
         solid = round_wire(wire.centreline, 0.5, wire.lifts, wire.name).solid
         assert volume_mm3(solid) == pytest.approx(math.pi / 16 * wire.length_mm, rel=0.03)
+
+
+def test_a_wire_has_few_faces() -> None:
+    """A wire with turns and lifts has tens of faces, not hundreds."""
+    rng = np.random.default_rng(3)
+    for wire in wires_of([scribble(rng, 60, 9) for _ in range(3)]):
+        made = round_wire(wire.centreline, 1.0, wire.lifts, wire.name)
+        assert made.solid is not None, made.flaw
+        assert faces_of(made.solid) < 0.5 * wire.length_mm
+
+
+def test_heights_run_above_the_ramps_and_are_level_where_these_are() -> None:
+    rng = np.random.default_rng(11)
+    for _ in range(50):
+        at = np.cumsum(rng.uniform(0.3, 6.0, rng.integers(2, 30)))
+        at -= at[0]
+        z = np.where(rng.random(len(at)) < 0.5, 0.0, rng.uniform(0, 3, len(at)))
+        height = smooth_heights(tuple(zip(at.tolist(), z.tolist(), strict=True)), float(at[-1]), 1.0)
+        s = np.linspace(0, at[-1], 2000)
+        wanted = np.interp(s, at, z)
+        assert (height(s) > wanted - 2 * HEIGHT_TOLERANCE_MM).all()
+        assert height(s).max() < z.max() + 2 * HEIGHT_TOLERANCE_MM
+        assert np.abs(np.diff(height(s, 1))).max() < 40 * at[-1] / 2000, "no kinks"
 
 
 def test_a_ring_is_whole() -> None:

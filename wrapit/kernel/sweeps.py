@@ -46,8 +46,7 @@ def round_wire(
         edge = spine.edge()
     try:
         with guarded("making the round wire's solid", name):
-            skins = [skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))]
-            solid = capped(skins, spine.breaks)
+            solid = capped([skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))])
             flaw = _flaw(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm)
     except KernelError as error:
         return RoundWire(edge, None, error.problem)
