@@ -17,7 +17,7 @@ from wrapit.kernel.objects import (
     build123d_part,
     cadquery_assembly,
     cadquery_workplane,
-    raised,
+    moved,
 )
 from wrapit.kernel.sweeps import round_wire
 from wrapit.wires.model import Wire
@@ -74,7 +74,9 @@ def _jig(jig: Jig) -> FilePart:
 def _wire(wire: Wire, on: Jig | None) -> FilePart:
     made = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name)
     part = FilePart(wire.name, made.solid, wire.colour, (made.centreline,))
-    return part if on is None else raised(part, on.plan.plate.thickness_mm + wire.diameter_mm / 2)
+    if on is None:
+        return part
+    return moved(part, (0.0, 0.0, on.plan.plate.thickness_mm + wire.diameter_mm / 2))
 
 
 def _solid(part: FilePart) -> FilePart:

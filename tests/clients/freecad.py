@@ -12,7 +12,10 @@ SCRIPT = Path(__file__).with_name("freecad_tree.py")
 
 
 def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[str, dict[str, Any]]:
-    """For each file the features that FreeCAD shows (label, volume, colour, curves) and the groups."""
+    """For each file the features that FreeCAD shows (label, volume, colour, curves) and the groups.
+
+    Those are with "Enable STEP Compound merge" off; `as_it_comes` has the solids by label with it on.
+    """
     seen, error = scratch / "seen.json", scratch / "seen.json.error"
     environment = {
         **os.environ,

@@ -50,6 +50,10 @@ def test_freecad_finds_names_and_volumes(piece: Piece, program: Program, tmp_pat
     volume = sum(feature["volume"] for feature in jig["features"])
     assert volume == pytest.approx(build.report["jig"]["volume_mm3"], rel=1e-6)
 
+    # As the README says: one object a file, until the merging of compounds is switched off.
+    assert wires["as_it_comes"] == {"wires": len(build.report["wires"])}
+    assert len(jig["as_it_comes"]) == 1
+
     assert wires["groups"] in ([name], [])
     found = {feature["label"]: feature for feature in wires["features"]}
     expected = {wire["name"] for wire in build.report["wires"]}

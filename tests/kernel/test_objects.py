@@ -14,7 +14,7 @@ from wrapit.kernel.objects import (
     cadquery_assembly,
     cadquery_workplane,
     channels,
-    raised,
+    moved,
 )
 from wrapit.kernel.terraces import terraced_solid
 
@@ -33,7 +33,7 @@ def test_both_libraries_see_the_same_solid(part: FilePart) -> None:
 
 
 def test_a_raised_part_is_the_same_higher_up(part: FilePart) -> None:
-    up = build123d_part(raised(part, 3.5))
+    up = build123d_part(moved(part, (0.0, 0.0, 3.5)))
     assert float(up.bounding_box().min.Z) == pytest.approx(3.5, abs=1e-6)
     assert up.volume == pytest.approx(volume_mm3(part.solid), rel=1e-12)
     assert float(build123d_part(part).bounding_box().min.Z) == pytest.approx(0, abs=1e-6)

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from wrapit.geometry import FloatArray
+
 
 def is_valid(shape: Any) -> bool:
     """Whether the kernel's own analysis finds nothing wrong."""
@@ -34,12 +38,19 @@ def count_solids(shape: Any) -> int:
     return count
 
 
-def size_mm(shape: Any) -> tuple[float, float, float]:
-    """Width, depth and height of the shape's box."""
+def box_mm(shape: Any) -> tuple[FloatArray, FloatArray]:
+    """The least and the greatest x, y and z of the shape, (3,) each, right to 1e-6."""
     from OCP.Bnd import Bnd_Box
     from OCP.BRepBndLib import BRepBndLib
 
     box = Bnd_Box()
     BRepBndLib.AddOptimal_s(shape, box, False, False)
-    low_x, low_y, low_z, high_x, high_y, high_z = box.Get()
-    return (high_x - low_x, high_y - low_y, high_z - low_z)
+    corners = np.array(box.Get())
+    return corners[:3], corners[3:]
+
+
+def size_mm(shape: Any) -> tuple[float, float, float]:
+    """Width, depth and height of the shape's box."""
+    low, high = box_mm(shape)
+    width, depth, height = (high - low).tolist()
+    return (width, depth, height)

@@ -26,16 +26,16 @@ class FilePart:
     edges: tuple[Any, ...] = ()
 
 
-def raised(part: FilePart, by_mm: float) -> FilePart:
-    """The same part, higher up; its geometry is shared."""
+def moved(part: FilePart, by_mm: tuple[float, float, float]) -> FilePart:
+    """The same part in another place; its geometry is shared."""
     from OCP.gp import gp_Trsf, gp_Vec
     from OCP.TopLoc import TopLoc_Location
 
     move = gp_Trsf()
-    move.SetTranslation(gp_Vec(0.0, 0.0, by_mm))
-    up = TopLoc_Location(move)
-    solid = None if part.solid is None else part.solid.Moved(up)
-    return replace(part, solid=solid, edges=tuple(edge.Moved(up) for edge in part.edges))
+    move.SetTranslation(gp_Vec(*by_mm))
+    there = TopLoc_Location(move)
+    solid = None if part.solid is None else part.solid.Moved(there)
+    return replace(part, solid=solid, edges=tuple(edge.Moved(there) for edge in part.edges))
 
 
 def build123d_part(part: FilePart) -> build123d.Part:
