@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from wrapit.drawing.svg.document import safe_document
+from wrapit.drawing.svg.limits import MOST_PARTS, MOST_SHAPES
 
 from tests.drawing.mutations import damaged
 from wrapit.config import TracingConfig
 from wrapit.drawing.json_file import drawing_json, read_drawing
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
-from wrapit.drawing.svg.document import safe_document
-from wrapit.drawing.svg.limits import MOST_PARTS, MOST_SHAPES
 from wrapit.errors import DrawingError
 
 STROKE = 'fill="none" stroke="black" stroke-width="2"'
