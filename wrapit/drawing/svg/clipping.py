@@ -13,8 +13,8 @@ from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading.model import Clip, Page, Shape
 from wrapit.geometry import FloatArray
 
-# Samples of each cubic. A curve that leaves what is seen for less than a 64th of a cubic is taken as inside, and
-# the edge of a clip path errs by its bend in a 64th of a cubic: 1e-5 of a circle's radius.
+# Samples of each cubic. A curve that leaves what is seen for less than a 64th of a cubic is taken as inside,
+# and the edge of a clip path errs by its bend in a 64th of a cubic: 1e-5 of a circle's radius.
 _SAMPLES = 64
 # Halvings that find where a curve leaves: a 64th of a cubic becomes a rounding error.
 _HALVINGS = 40

@@ -29,7 +29,7 @@ Missing = Literal[
 
 @dataclass(frozen=True)
 class Paint:
-    """Paint: its colour (None for a gradient or a pattern), and its opacity (0 to 1) with all groups around."""
+    """Paint: its colour (None for a gradient or a pattern), and its opacity (0 to 1) with all groups."""
 
     colour: Colour | None
     opacity: float

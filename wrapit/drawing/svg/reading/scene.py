@@ -228,7 +228,7 @@ class _Scene:
     def _transform(
         self, element: Element, declared: dict[str, str]
     ) -> tuple[Callable[[float, float, Measure], Matrix], bool]:
-        """The matrix about a box, by its corner and a measure of its size; whether it is the element's own."""
+        """The matrix about a box, by its corner and a measure of its size; whether it is the own box."""
         parts = [
             f"{name}({declared[name].strip() if name == 'rotate' else ','.join(declared[name].split())})"
             for name in ("translate", "rotate", "scale")
