@@ -54,7 +54,7 @@ def path_subpaths(text: str, most: int) -> tuple[list[Subpath], int | None, int]
 def polygon_subpaths(text: str, closed: bool, most: int) -> tuple[list[Subpath], int | None, int]:
     """The same for `points`: what is no number ends them, and half a point is left out."""
     pen, values, at = Pen(), list[float](), _skip(_BLANK, text, 0)
-    while len(values) <= 2 * most and (found := _NUMBER.match(text, at)):
+    while len(values) <= 2 * most + 2 and (found := _NUMBER.match(text, at)):
         values.append(float(found[0]))
         at = _skip(_COMMA, text, found.end())
     points = list(zip(values[::2], values[1::2], strict=False))
