@@ -7,7 +7,9 @@ import re
 from wrapit.drawing.svg.reading.lengths import NUMBER
 from wrapit.drawing.svg.reading.pen import Pen, Point, Subpath
 
+# The commands, and how many numbers each takes.
 _NUMBERS_EACH = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
+# What is between commands, what is between numbers, and numbers; flags need nothing between them.
 _BLANK = re.compile(r"[ \t\r\n\f]*")
 _COMMA = re.compile(r"[ \t\r\n\f]*,?[ \t\r\n\f]*")
 _NUMBER = re.compile(NUMBER)
