@@ -207,3 +207,13 @@ def test_a_stroke_drawn_in_parts_is_one_segment(tmp_path):
     assert degrees(drawing) == [1, 1]
     bent, _ = traced(tmp_path, f'<path {STROKE} d="M10 50 H50"/><path {STROKE} d="M50 90 V50"/>')
     assert degrees(bent) == [1, 1, 2]
+
+
+def test_an_outline_as_large_as_the_page_is_no_paper(tmp_path):
+    ring = '<path fill-rule="evenodd" d="M0 0H100V100H0ZM10 10H90V90H10Z"/>'
+    outlined, _ = traced(tmp_path, ring, filled="outline")
+    assert outlined.length_mm > 300
+    paper = '<path fill="#234" d="M0 0H100V100H0Z"/>'
+    lined, findings = traced(tmp_path, paper + f'<path {STROKE} d="M10 20H90"/>', filled="outline")
+    assert lined.length_mm == pytest.approx(80)
+    assert findings == ()

@@ -52,7 +52,7 @@ class Seen:
         key = tuple(map(id, clips)), margin
         if key not in self._widened:
             together = shapely.intersection_all([self._clip(clip) for clip in clips])
-            region = shapely.buffer(together, margin, join_style="mitre")
+            region = shapely.buffer(together, min(margin, self._size), join_style="mitre")
             shapely.prepare(region)
             self._widened[key] = region
         return self._widened[key]
