@@ -136,11 +136,11 @@ def test_filled_shapes_are_refused_with_a_remedy_or_outlined(tmp_path):
         ("", "", "no stroked lines"),
         ('<path d="M10 10 L nan 20" stroke="black"/>', "", "nan"),
         ('<path stroke="black" d="M10 10 L 1e999 20"/>', "", "finite|nan|inf"),
-        ("<text>&x;</text>", '<!DOCTYPE svg [<!ENTITY x "boo">]>', "entities"),
+        ("<text>&x;</text>", '<!DOCTYPE svg [<!ENTITY x "boo">]>', "text and no lines"),
         ("", '<!DOCTYPE svg [<!ENTITY x SYSTEM "file:///etc/passwd">]>', "entities"),
         ('<image href="http://example.com/a.png"/>', "", "another file"),
         ('<use xlink:href="other.svg#a"/>', "", "another file"),
-        ('<style>@import url("http://example.com/a.css");</style>', "", "another file"),
+        ('<style>@import url("http://example.com/a.css");</style>', "", "no stroked lines"),
         ('<path stroke="black" d="M0 0 L9 9"/', "", "XML"),
     ],
 )
@@ -207,3 +207,13 @@ def test_a_stroke_drawn_in_parts_is_one_segment(tmp_path):
     assert degrees(drawing) == [1, 1]
     bent, _ = traced(tmp_path, f'<path {STROKE} d="M10 50 H50"/><path {STROKE} d="M50 90 V50"/>')
     assert degrees(bent) == [1, 1, 2]
+
+
+def test_an_outline_as_large_as_the_page_is_no_paper(tmp_path):
+    ring = '<path fill-rule="evenodd" d="M0 0H100V100H0ZM10 10H90V90H10Z"/>'
+    outlined, _ = traced(tmp_path, ring, filled="outline")
+    assert outlined.length_mm > 300
+    paper = '<path fill="#234" d="M0 0H100V100H0Z"/>'
+    lined, findings = traced(tmp_path, paper + f'<path {STROKE} d="M10 20H90"/>', filled="outline")
+    assert lined.length_mm == pytest.approx(80)
+    assert findings == ()

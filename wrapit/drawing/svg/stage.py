@@ -67,7 +67,7 @@ def trace_svg(
         changes=[*changes, *connected.changes],
         pixel_frame=False,
     )
-    findings = []
+    findings = list(strokes.findings)
     for notice in connected.notices:
         x, y = where.points(np.array(notice.at_px))
         place = f"at ({notice.at_px[0]:.1f}, {notice.at_px[1]:.1f}) px, ({x:.1f}, {y:.1f}) mm"
@@ -81,6 +81,18 @@ def trace_svg(
                 "drawing",
                 f"{len(doubles)} stretches ({length:.1f} mm) are drawn twice, as where two shapes share an "
                 "edge; each is taken once",
+            )
+        )
+    if strokes.clipped:
+        longest, _ = max(strokes.clipped, key=lambda part: part[1])
+        total = where.scale * sum(length for _, length in strokes.clipped)
+        findings.append(
+            Finding(
+                "warning",
+                "clipped",
+                f"at ({longest[0]:.1f}, {longest[1]:.1f}) px",
+                f"{total:.1f} mm of lines lie outside of the page, or are clipped away, and are left out",
+                "enlarge the page to the drawing, or release the clip",
             )
         )
     if strokes.filled:
