@@ -29,15 +29,16 @@ _LEAST_LOOK = 9
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Mean grey level (h, w) of square cells of `step` pixels, the paper's level there, and the ink's width.
+    """Mean grey level (h, w) of square cells of `step` pixels, and the paper's level there.
 
-    `stroke` is in cells.
+    In cells: `stroke` is the ink's usual width, `look` how broad ink may be that paper is seen past.
     """
 
     level: NDArray[np.float32]
     paper: NDArray[np.float32]
     step: int
     stroke: float
+    look: int
 
     @property
     def ink(self) -> BoolCells:
@@ -56,7 +57,7 @@ def cells_of(grey: GreyImage) -> Cells:
     stroke = _stroke(level)
     look = int(max(_LEAST_LOOK, np.ceil(_PAST_STROKES * stroke))) | 1
     paper = minimum_filter(maximum_filter(level, look, mode="nearest"), look, mode="nearest")
-    return Cells(level, paper, step, stroke)
+    return Cells(level, paper, step, stroke, look)
 
 
 def painted(grey: GreyImage, cells: Cells, where: BoolCells) -> GreyImage:
@@ -105,14 +106,12 @@ def sides(where: BoolCells) -> str:
 
 def _stroke(level: NDArray[np.float32]) -> float:
     """How many cells broad strokes are: the usual run of dark cells along rows and columns."""
-    low, high = np.percentile(level, [1, 99])
-    dark = level < max((low + high) / 2, _INK * np.median(level) if low < _INK * np.median(level) else 0)
+    dark = level < _INK * np.median(level)
     runs = []
     for picture in (dark, dark.T):
-        # Two pale columns part the rows; runs that touch the picture's side are no strokes.
-        inner = picture.copy()
-        edges = np.diff(np.pad(inner, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+        edges = np.diff(np.pad(picture, ((0, 0), (1, 1))).astype(np.int8), axis=1)
         first, last = np.nonzero(edges == 1), np.nonzero(edges == -1)
+        # Runs that touch the picture's side are no strokes.
         free = (first[1] > 0) & (last[1] < picture.shape[1])
         runs.append((last[1] - first[1])[free])
     lengths = np.concatenate(runs)

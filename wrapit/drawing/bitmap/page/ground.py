@@ -27,8 +27,9 @@ _OTHER = 1.18
 _BESIDE = 6
 # How far around the ground is painted over? The paper's edge is blurred and has a rim of shade.
 _BLURRED = 3
-# How far does ink that touches the ground reach into the paper if it is more than that rim?
-_REACHES = 10
+# How much farther than the look past strokes may ink that touches the ground reach into the paper, if it is the
+# ground's own rim and no line that runs into it?
+_SHADE = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,12 +63,8 @@ def find_ground(cells: Cells) -> Ground | None:
         return None
     usual = float(np.median(cells.paper[paper]))
     grown = binary_dilation(outside, iterations=_BLURRED)
-    ink = cells.ink & ~grown
-    return Ground(
-        _with_rim(cells, grown, ink),
-        float(np.median(cells.level[outside])) / usual,
-        _runs_into(ink, grown),
-    )
+    rim, crossed = _beside(cells.ink & ~grown, grown, cells.look + _SHADE)
+    return Ground(grown | rim, float(np.median(cells.level[outside])) / usual, crossed)
 
 
 def _paper_region(cells: Cells, regions: NDArray[np.int32], count: int) -> int | None:
@@ -109,29 +106,21 @@ def _other(cells: Cells, outside: BoolCells, paper: BoolCells) -> BoolCells:
     return result
 
 
-def _with_rim(cells: Cells, ground: BoolCells, ink: BoolCells) -> BoolCells:
-    """The ground with the dark rim that a paper's edge has: ink that touches it and stays beside it."""
+def _beside(ink: BoolCells, ground: BoolCells, reach: int) -> tuple[BoolCells, bool]:
+    """The ink that touches the ground and stays beside it or the picture's side; whether other ink touches it.
+
+    Where the ground tapers to a sliver it is ink to all looks, so the picture's side counts as ground too.
+    """
     from scipy.ndimage import distance_transform_edt, label
 
     labels, count = label(ink, np.ones((3, 3)))
     if not count:
-        return ground
-    away = distance_transform_edt(~ground)
-    farthest, nearest = np.zeros(count + 1), np.full(count + 1, np.inf)
-    np.maximum.at(farthest, labels.ravel(), away.ravel())
-    np.minimum.at(nearest, labels.ravel(), away.ravel())
-    rim = np.flatnonzero((farthest < _REACHES) & (nearest < 2))
-    return ground | np.isin(labels, rim[rim > 0])
-
-
-def _runs_into(ink: BoolCells, ground: BoolCells) -> bool:
-    from scipy.ndimage import distance_transform_edt, label
-
-    labels, count = label(ink, np.ones((3, 3)))
-    if not count:
-        return False
-    away = distance_transform_edt(~ground)
-    farthest, nearest = np.zeros(count + 1), np.full(count + 1, np.inf)
-    np.maximum.at(farthest, labels.ravel(), away.ravel())
-    np.minimum.at(nearest, labels.ravel(), away.ravel())
-    return bool(((farthest >= _REACHES) & (nearest < 2))[1:].any())
+        return np.zeros_like(ink), False
+    nearest, farthest = np.full(count + 1, np.inf), np.zeros(count + 1)
+    np.minimum.at(nearest, labels.ravel(), distance_transform_edt(~ground).ravel())
+    inside = distance_transform_edt(np.pad(~ground, 1))[1:-1, 1:-1]
+    np.maximum.at(farthest, labels.ravel(), inside.ravel())
+    touching = nearest < 2
+    touching[0] = False
+    rim: BoolCells = (touching & (farthest <= reach))[labels]
+    return rim, bool((touching & (farthest > reach)).any())
