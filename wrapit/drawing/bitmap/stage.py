@@ -57,11 +57,25 @@ def _read_and_traced(
     path: Path, tracing: TracingConfig, size_mm: float, *, alone: bool
 ) -> tuple[Drawing, tuple[Finding, ...]]:
     picture = read_picture(path, tracing, alone=alone)
-    if not is_ruled(picture.ink.mask):
-        return _traced(picture, path, tracing, size_mm)
-    darker = read_on_ruled_paper(path, tracing, alone=alone)
-    drawing, findings = _traced(darker or picture, path, tracing, size_mm)
-    return drawing, (_about_ruling(darker is not None), *findings)
+    ruled = is_ruled(picture.ink.mask)
+    darker = read_on_ruled_paper(path, tracing, alone=alone) if ruled else None
+    try:
+        drawing, findings = _traced(darker or picture, path, tracing, size_mm)
+    except DrawingError as refused:
+        raise _with_surroundings(refused, picture) from None
+    return drawing, (_about_ruling(darker is not None), *findings) if ruled else findings
+
+
+def _with_surroundings(refused: DrawingError, picture: Picture) -> DrawingError:
+    """The refusal, led by what lies around the paper where there is such: most likely it is the cause."""
+    around = [notice.message for notice in picture.notices if notice.code in ("dark-table", "dark-edge")]
+    if not around:
+        return refused
+    return DrawingError(
+        f"{around[0]}, but what remains is no line drawing",
+        refused.where,
+        "crop the picture to the plain paper around the drawing, or photograph it in even light",
+    )
 
 
 def _about_ruling(left_out: bool) -> Finding:
@@ -147,9 +161,7 @@ def _drawing(
     )
     findings = [*_about(picture)]
     findings += [_finding(notice, np.array(notice.at_px), where) for notice in picture.notices]
-    findings += [
-        _finding(notice, picture.source(np.array(notice.at_px)), where) for notice in graph.notices
-    ]
+    findings += [_finding(notice, picture.source(np.array(notice.at_px)), where) for notice in graph.notices]
     return drawing, tuple(findings)
 
 

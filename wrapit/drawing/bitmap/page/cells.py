@@ -97,8 +97,8 @@ def sides(where: BoolCells) -> str:
     """
     named = {"at the top": where[0], "at the bottom": where[-1], "on the left": where[:, 0]}
     named["on the right"] = where[:, -1]
-    most = max(max(row.mean() for row in named.values()), 1e-9)
-    words = [name for name, row in named.items() if row.mean() > 0.3 * most]
+    most = max(row.mean() for row in named.values())
+    words = [name for name, row in named.items() if row.any() and row.mean() > 0.3 * most]
     if len(words) == 4:
         return "all around"
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words) or "inside"

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.page.cells import BoolCells, Cells
 
-# How far from the sides of its box is a frame, in shares of the shorter side? With this much all of a frame is
-# found that is a tenth thick, askew by two degrees or rounded with 40 % of its side; a ring reaches .146 in.
+# How far from the sides of its box is a frame, in shares of the shorter side? With this much all of a frame
+# is found that is a tenth thick, askew by two degrees or rounded with 40 % of its side; a ring reaches .146.
 _BAND = 0.125
 # How much of each side is there? Corners apart, a dash and a gap as long are half of it.
 _CORNER = 0.15
@@ -27,13 +27,15 @@ def find_frame(cells: Cells) -> BoolCells | None:
     labels, count = label(ink, np.ones((3, 3)))
     if count < 2:
         return None
-    boxes = np.array(
-        [[box[0].start, box[1].start, box[0].stop, box[1].stop] for box in find_objects(labels)]
-    )
+    boxes = np.array([[box[0].start, box[1].start, box[0].stop, box[1].stop] for box in find_objects(labels)])
     low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
     hugging = _hugging(labels, count, low, high)
     rest = ~hugging
-    if not hugging.any() or not rest.any() or not _covers(np.isin(labels, np.flatnonzero(hugging) + 1), low, high):
+    if (
+        not hugging.any()
+        or not rest.any()
+        or not _covers(np.isin(labels, np.flatnonzero(hugging) + 1), low, high)
+    ):
         return None
     inner_low, inner_high = boxes[rest, :2].min(axis=0), boxes[rest, 2:].max(axis=0)
     if not ((inner_low > low).all() and (inner_high < high).all()):

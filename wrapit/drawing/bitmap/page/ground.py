@@ -1,4 +1,4 @@
-"""The ground that paper lies on: a table, a scanner's lid, a mat, a thumb; and shadows that hide where it ends.
+"""The ground that paper lies on: a table, a scanner's lid, a mat, a thumb; and shadows that hide its end.
 
 Paper is what can be reached from its brightest inked part without a step of the level: a soft shadow is
 crossed, the paper's edge is not. What then lies outside and reaches the picture's rim is ground.
@@ -13,9 +13,12 @@ from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, rim_of
 
-# What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow that
-# fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
+# What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow
+# that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
 _STEP = 0.14
+# Through how narrow a place does paper not go on, in cells to either side? Where a paper's slanted edge meets
+# the picture's side, its step is blurred over a few cells.
+_LEAK = 2
 # What may be paper? This share of the picture at least, with this share of the ink of the region that has
 # most; and this bright: the ground of a light drawing surrounds dark fields.
 _PAPER = 0.15
@@ -27,8 +30,8 @@ _OTHER = 1.18
 _BESIDE = 6
 # How far around the ground is painted over? The paper's edge is blurred and has a rim of shade.
 _BLURRED = 3
-# How much farther than the look past strokes may ink that touches the ground reach into the paper, if it is the
-# ground's own rim and no line that runs into it?
+# How much farther than the look past strokes may ink that touches the ground reach into the paper, if it is
+# the ground's own rim and no line that runs into it?
 _SHADE = 2
 
 
@@ -43,17 +46,18 @@ class Ground:
 
 def find_ground(cells: Cells) -> Ground | None:
     """The ground around the paper; nothing where the paper fills the picture."""
-    from scipy.ndimage import binary_dilation, label, maximum_filter, minimum_filter
+    from scipy.ndimage import binary_dilation, binary_erosion, label, maximum_filter, minimum_filter
 
     level = np.log(cells.paper)
     flat = maximum_filter(level, 3) - minimum_filter(level, 3) < _STEP
     if flat.all():
         return None
-    regions, count = label(flat)
+    regions, count = label(binary_erosion(flat, iterations=_LEAK, border_value=1))
     number = _paper_region(cells, regions, count)
     if number is None:
         return None
-    paper = binary_dilation(regions == number, iterations=1)
+    paper = binary_dilation(regions == number, iterations=_LEAK, mask=flat)
+    paper = binary_dilation(paper, iterations=1)
     outside = _at_rim(~paper)
     outside = _other(cells, outside, paper)
     if not outside.any():
@@ -107,7 +111,7 @@ def _other(cells: Cells, outside: BoolCells, paper: BoolCells) -> BoolCells:
 
 
 def _beside(ink: BoolCells, ground: BoolCells, reach: int) -> tuple[BoolCells, bool]:
-    """The ink that touches the ground and stays beside it or the picture's side; whether other ink touches it.
+    """Ink that touches the ground and stays beside it or the picture's side; whether other ink touches it.
 
     Where the ground tapers to a sliver it is ink to all looks, so the picture's side counts as ground too.
     """

@@ -8,9 +8,9 @@ import numpy as np
 
 from wrapit.drawing.bitmap.image import GreyImage
 from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, cells_of, depth, painted, sides
-from wrapit.drawing.bitmap.page.edges import Edges, find_edges
 from wrapit.drawing.bitmap.page.frames import find_frame
 from wrapit.drawing.bitmap.page.ground import Ground, find_ground
+from wrapit.drawing.bitmap.page.scan_edges import Edges, find_edges
 from wrapit.drawing.changes import Change, Notice
 from wrapit.errors import DrawingError
 
@@ -33,7 +33,7 @@ class Page:
 
 
 def is_bright_page(grey: GreyImage) -> bool:
-    """Whether a picture with a dark rim shows bright paper on a table or in a dark frame, no light drawing."""
+    """Whether a picture with a dark rim shows bright paper on a table or in a dark frame."""
     cells = cells_of(grey)
     low, high = np.percentile(cells.level, [1, 99])
     return float(np.median(cells.level)) > (low + high) / 2 or find_ground(cells) is not None
@@ -68,7 +68,9 @@ def drawing_alone(grey: GreyImage, where: str) -> Page:
         leave_out(cells, edges.edges, "dark-edge", message, _CROP)
     if edges.holes.any():
         message = "dark spots near the side of the picture are taken for punched holes and left out"
-        leave_out(cells, edges.holes, "punched-holes", message, "connect them to the drawing if they belong to it")
+        leave_out(
+            cells, edges.holes, "punched-holes", message, "connect them to the drawing if they belong to it"
+        )
     if notices and (edges.edges.any() or edges.holes.any()):
         grey = painted(grey, cells, edges.edges | edges.holes)
         cells = cells_of(grey)

@@ -1,4 +1,4 @@
-"""A scan's dark edges, corners and punched holes: ink along the picture's sides that is no part of the drawing."""
+"""A scan's dark edges, corners and punched holes: ink along a picture's sides that nobody drew."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, depth
 _DEEPEST = 0.18
 # What is left of the drawing at least, in shares of the longer side of the picture?
 _LEAST_LEFT = 0.15
-# Where is a hole punched? Within this share of the shorter side from a side; a disc of up to this share, that
-# fills this much of its box (a full disc .79, a ring as thick as a line less) and is so much thicker than lines.
+# Where is a hole punched? Within this share of the shorter side from a side; a disc of up to this share,
+# that fills this much of its box (a full disc .79, a ring less) and is so much thicker than lines.
 _HOLE_DEPTH = 0.14
 _HOLE_SIZE = 0.07
 _DISC = 0.68
@@ -37,7 +37,7 @@ def find_edges(cells: Cells) -> Edges:
     from scipy.ndimage import binary_dilation, find_objects, label
 
     ink = cells.ink
-    labels, count = label(ink, np.ones((3, 3)))
+    labels, _ = label(ink, np.ones((3, 3)))
     short, away = min(ink.shape), depth(ink.shape)
     edges, holes, run_into = (np.zeros_like(ink) for _ in range(3))
     for number, box in enumerate(find_objects(labels), 1):
