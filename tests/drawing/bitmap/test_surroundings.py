@@ -39,6 +39,14 @@ def codes(findings: tuple[Finding, ...]) -> set[str]:
     return {finding.code for finding in findings}
 
 
+def apart(drawing: Drawing) -> np.ndarray:
+    """How far each two junctions where lines meet are apart, in shares of the farthest: turned or not."""
+    meeting = np.bincount([end for s in drawing.segments for end in (s.start, s.end)]) > 2
+    points = np.array([junction.point for junction in drawing.junctions])[meeting]
+    distances = np.sort(np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1)), axis=None)
+    return distances / distances[-1]
+
+
 @contextmanager
 def suppress_named(*causes: str) -> Iterator[None]:
     """Lets refusals pass that name one of these causes, and no others."""
@@ -179,5 +187,11 @@ def test_real_pages_are_read_as_the_drawing_alone(name):
 def test_a_shadow_across_paper_and_table_is_right_or_refused_with_the_cause():
     if not CASES.exists():
         pytest.skip("the cases are not here; set WRAPIT_CASES")
-    with pytest.raises(DrawingError, match="table under the paper or into a shadow"):
-        trace(CASES / "pike_photo_shadow.jpg", TracingConfig(), 40.0)
+    alone, _ = trace(CASES / "pike.png", TracingConfig(), 40.0)
+    with suppress_named("table", "shadow"):
+        drawing, findings = trace(CASES / "pike_photo_shadow.jpg", TracingConfig(), 40.0)
+        # Its noise may add a corner, which changes nothing of how the lines meet.
+        assert [d for d in degrees(drawing) if d != 2] == [d for d in degrees(alone) if d != 2]
+        # The camera was not quite above the paper: the farthest of these differ by 0.034.
+        assert apart(drawing) == pytest.approx(apart(alone), abs=0.05)
+        assert "dark-table" in codes(findings)
