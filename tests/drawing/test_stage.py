@@ -50,3 +50,27 @@ def test_names_that_no_file_can_have_are_refused(tmp_path, name):
     message.encode("utf-8")
     assert len(message) < 600
     assert "\n" not in message
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("a.heic", "share menu"),
+        ("a.ai", "untick 'Preserve Illustrator"),
+        ("a.svgz", "Plain SVG"),
+        ("a.dxf", "Inkscape"),
+        ("a.cdr", "CorelDRAW"),
+        ("a.xcf", "Export As"),
+        ("a.kra", "Krita"),
+        ("a.html", "Canva"),
+    ],
+)
+def test_a_file_of_another_program_is_refused_with_its_export(name, words, tmp_path):
+    (tmp_path / name).write_bytes(b"anything")
+    assert words in refusal(tmp_path / name)
+
+
+@pytest.mark.parametrize(("head", "name"), [(b"\x89PNG\r\n\x1a\n", ".png"), (b"<svg/>", ".svg")])
+def test_a_readable_file_of_an_unknown_name_is_told_its_name(head, name, tmp_path):
+    (tmp_path / "drawing.dat").write_bytes(head)
+    assert f"name it {name}" in refusal(tmp_path / "drawing.dat")

@@ -7,10 +7,16 @@ from pathlib import Path
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.model import Drawing
+from wrapit.drawing.signatures import HEAD_BYTES, export_of, kind_by_name, kind_of
 from wrapit.errors import ConfigError, DrawingError, Finding
 
 # What Pillow reads without starting another program.
 BITMAPS = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".gif")
+# What are readable files called whose names say something else?
+_NAMES = {
+    "PNG": ".png", "JPEG": ".jpg", "GIF": ".gif", "TIFF": ".tif", "BMP": ".bmp", "WebP": ".webp",
+    "SVG": ".svg",
+}  # fmt: skip
 # How much of a path is shown where the path itself is at fault? Enough to know it by, on one screen.
 _LONGEST_PLACE = 200
 
@@ -32,16 +38,31 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
 
         return trace_svg(path, tracing, size_mm)
     if suffix not in BITMAPS:
-        raise DrawingError(
-            f"unknown kind of drawing {suffix[:40]!r}",
-            str(path),
-            "use .png, .jpg, .bmp, .tif, .webp, .svg or .json",
-        )
+        raise _of_other_kind(path, suffix)
     if size_mm is None:
         raise ConfigError("a bitmap has no size of its own", "size", "add `size: 40 mm` to the config")
     from wrapit.drawing.bitmap.stage import trace_bitmap
 
     return trace_bitmap(path, tracing, size_mm)
+
+
+def _of_other_kind(path: Path, suffix: str) -> DrawingError:
+    """The refusal of a file by its name, or where that tells nothing by its first bytes."""
+    kind = kind_by_name(suffix)
+    if kind is not None:
+        return DrawingError(f"{suffix} files ({kind}) can't be read", str(path), export_of(kind))
+    try:
+        with path.open("rb") as file:
+            kind = kind_of(file.read(HEAD_BYTES))
+    except OSError:
+        # Its name alone is reason enough.
+        kind = None
+    problem = f"unknown kind of drawing {suffix[:40]!r}"
+    if kind in _NAMES:
+        return DrawingError(f"{problem}: the file is {kind}", str(path), f"name it {_NAMES[kind]}")
+    if kind is not None:
+        return DrawingError(f"{problem}: the file is {kind}", str(path), export_of(kind))
+    return DrawingError(problem, str(path), "use .png, .jpg, .bmp, .tif, .webp, .svg or .json")
 
 
 def _refuse_no_file(path: Path) -> None:

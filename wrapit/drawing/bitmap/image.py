@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.signatures import HEAD_BYTES, kind_of
+from wrapit.drawing.signatures import HEAD_BYTES, export_of, kind_of
 from wrapit.errors import DrawingError
 
 GreyImage: TypeAlias = NDArray[np.uint8]
@@ -23,8 +23,6 @@ _Bands: TypeAlias = Callable[[], Iterator[tuple[slice, NDArray[Any]]]]
 
 # What a file may hold, whatever its name says: Pillow would start other programs for some others.
 FORMATS = ("PNG", "JPEG", "BMP", "TIFF", "WEBP", "GIF")
-# The remedy of all that Pillow could open otherwise.
-_SAVE_AS = "save it as PNG, JPEG, BMP, TIFF or WebP"
 # No drawing has fewer pixels a side: a stroke of four would fill it.
 _SMALLEST_PX = 8
 # When is one channel better than plain grey? Where it shows the ink this much better, as yellow on white,
@@ -95,14 +93,14 @@ def _no_image(path: Path) -> DrawingError:
     if kind == "SVG":
         return DrawingError("the file is no image but an SVG drawing", str(path), "name it .svg")
     if kind is None:
-        return DrawingError("the file is no image that can be read", str(path), _SAVE_AS)
+        return DrawingError("the file is no image that can be read", str(path), export_of(None))
     if kind.upper() in FORMATS:
         return DrawingError(
             f"the file is no image that can be read: it starts as {kind} and is damaged",
             str(path),
             "it may be cut off; save or scan it again",
         )
-    return DrawingError(f"the file is no image that can be read but {kind}", str(path), _SAVE_AS)
+    return DrawingError(f"the file is no image that can be read but {kind}", str(path), export_of(kind))
 
 
 def _check_size(size: tuple[int, int], path: Path, pixel_limit: int) -> None:

@@ -10,9 +10,10 @@ import numpy as np
 from wrapit.config import TracingConfig
 from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
-from wrapit.drawing.bitmap.paper import without_table
+from wrapit.drawing.bitmap.page.stage import Page, drawing_alone, is_bright_page
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_crowd
 from wrapit.drawing.bitmap.skeleton import Skeleton, thin_within
+from wrapit.drawing.changes import Change, Notice
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
@@ -29,47 +30,55 @@ _OUTLINE_PX = 8.0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Ink and skeleton in working pixels; `factor` source pixels make one of them."""
+    """Ink and skeleton in working pixels; `factor` source pixels make one of them.
+
+    What was left out around the drawing is told in source pixels.
+    """
 
     ink: Ink
     skeleton: Skeleton
     factor: float
-    light_on_dark: bool
-    on_table: bool
+    light_on_dark: bool = False
+    changes: tuple[Change, ...] = ()
+    notices: tuple[Notice, ...] = ()
 
     def source(self, points: FloatArray) -> FloatArray:
         """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""
         return points * self.factor + (self.factor - 1) / 2
 
 
-def read_picture(path: Path, tracing: TracingConfig) -> Picture:
-    """The picture in a bitmap file.
+def read_picture(path: Path, tracing: TracingConfig, *, alone: bool = True) -> Picture:
+    """The picture in a bitmap file; with `alone` without what surrounds the drawing.
 
-    Raises DrawingError where it can't be read, has no ink, or is noise.
+    Raises DrawingError where it can't be read, has no ink, is noise, or shows lines that run into a table
+    or a dark edge.
     """
-    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
-    return replace(_picture(grey, path, tracing), light_on_dark=light_on_dark)
+    page, light_on_dark = _page(path, tracing, alone)
+    return _told(_picture(page.grey, path, tracing), page, light_on_dark)
 
 
-def read_on_table(path: Path, tracing: TracingConfig) -> Picture | None:
-    """The picture without the dark ground around its paper, or nothing where there is none.
-
-    Raises DrawingError as `read_picture`.
-    """
-    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
-    paper = without_table(255 - grey if light_on_dark else grey)
-    return None if paper is None else replace(_picture(paper, path, tracing), on_table=True)
-
-
-def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
+def read_on_ruled_paper(path: Path, tracing: TracingConfig, *, alone: bool = True) -> Picture | None:
     """The picture without the paler lines that rule the paper, or nothing where there are no such.
 
     Raises DrawingError as `read_picture`.
     """
-    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
-    found = find_ink(grey, str(path))
+    page, light_on_dark = _page(path, tracing, alone)
+    found = find_ink(page.grey, str(path))
     darker = darker_ink(found) if is_ruled(found.mask) else None
-    return None if darker is None else replace(_picture(darker, path, tracing), light_on_dark=light_on_dark)
+    return None if darker is None else _told(_picture(darker, path, tracing), page, light_on_dark)
+
+
+def _page(path: Path, tracing: TracingConfig, alone: bool) -> tuple[Page, bool]:
+    grey, light_on_dark = load_grey(path, tracing.pixel_limit)
+    if not alone:
+        return Page(grey, (), ()), light_on_dark
+    if light_on_dark and is_bright_page(255 - grey):
+        grey, light_on_dark = 255 - grey, False
+    return drawing_alone(grey, str(path)), light_on_dark
+
+
+def _told(picture: Picture, page: Page, light_on_dark: bool) -> Picture:
+    return replace(picture, light_on_dark=light_on_dark, changes=page.changes, notices=page.notices)
 
 
 def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
@@ -86,7 +95,7 @@ def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
         if times > 1:
             ink = _inked(find_ink(_enlarged(grey, times), str(path)), tracing)
             skeleton, factor = _skeleton(ink, path), factor / times
-    return Picture(ink, skeleton, factor, light_on_dark=False, on_table=False)
+    return Picture(ink, skeleton, factor)
 
 
 def _skeleton(ink: Ink, path: Path) -> Skeleton:

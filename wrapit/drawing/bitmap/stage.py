@@ -23,8 +23,7 @@ from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.pairing import kinked, pair
-from wrapit.drawing.bitmap.paper import drop_frames
-from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_on_table, read_picture
+from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_picture
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
 from wrapit.drawing.bitmap.skeleton import strand_graph_of, thin_within
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
@@ -32,7 +31,7 @@ from wrapit.drawing.changes import Change, Notice
 from wrapit.drawing.components import LONGEST_LINK, Connected, connect
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
-from wrapit.geometry import BezierChain, unit
+from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.fitting.fit import Stroke, fit_all
 
 
@@ -41,36 +40,42 @@ def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Dr
 
     Raises DrawingError where the picture can't be read or is no line drawing.
     """
+    if tracing.filled == "refuse":
+        return _read_and_traced(path, tracing, size_mm, alone=True)
+    # A filled shape may well reach the side of the picture, as an edge or a table does: those come second.
     try:
-        return _read_and_traced(path, tracing, size_mm)
+        return _read_and_traced(path, tracing, size_mm, alone=False)
     except DrawingError as refused:
-        found = _traced_on_table(path, tracing, size_mm)
-        if found is None:
+        try:
+            return _read_and_traced(path, tracing, size_mm, alone=True)
+        except DrawingError:
+            # The first reason tells the maker more.
             raise refused from None
-        return found
-
-
-def _traced_on_table(
-    path: Path, tracing: TracingConfig, size_mm: float
-) -> tuple[Drawing, tuple[Finding, ...]] | None:
-    """The drawing in a photo that shows dark ground around the paper; nothing where it is no such."""
-    try:
-        picture = read_on_table(path, tracing)
-        return None if picture is None else _traced(picture, path, tracing, size_mm)
-    except DrawingError:
-        # The first reason tells the maker more.
-        return None
 
 
 def _read_and_traced(
-    path: Path, tracing: TracingConfig, size_mm: float
+    path: Path, tracing: TracingConfig, size_mm: float, *, alone: bool
 ) -> tuple[Drawing, tuple[Finding, ...]]:
-    picture = read_picture(path, tracing)
-    if not is_ruled(picture.ink.mask):
-        return _traced(picture, path, tracing, size_mm)
-    darker = read_on_ruled_paper(path, tracing)
-    drawing, findings = _traced(darker or picture, path, tracing, size_mm)
-    return drawing, (_about_ruling(darker is not None), *findings)
+    picture = read_picture(path, tracing, alone=alone)
+    ruled = is_ruled(picture.ink.mask)
+    darker = read_on_ruled_paper(path, tracing, alone=alone) if ruled else None
+    try:
+        drawing, findings = _traced(darker or picture, path, tracing, size_mm)
+    except DrawingError as refused:
+        raise _with_surroundings(refused, picture) from None
+    return drawing, (_about_ruling(darker is not None), *findings) if ruled else findings
+
+
+def _with_surroundings(refused: DrawingError, picture: Picture) -> DrawingError:
+    """The refusal, led by what lies around the paper where there is such: most likely it is the cause."""
+    around = [notice.message for notice in picture.notices if notice.code in ("dark-table", "dark-edge")]
+    if not around:
+        return refused
+    return DrawingError(
+        f"{around[0]}, but what remains is no line drawing",
+        refused.where,
+        "crop the picture to the plain paper around the drawing, or photograph it in even light",
+    )
 
 
 def _about_ruling(left_out: bool) -> Finding:
@@ -108,7 +113,6 @@ def _traced(
     contract_short(graph, radius, 0.35)
     tidy(graph, radius, width_px)
     drop_crumbs(graph, width_px)
-    drop_frames(graph, width_px)
     refuse_loose_strokes(graph, str(path))
     lines = centre_lines(graph, ink, width_px)
     open_tips(graph, lines, width_px)
@@ -136,7 +140,8 @@ def _drawing(
     ]
     places = {node: picture.source(point) for node, point in connected.places.items()}
     where = placement([piece.curve for piece in pieces], size_mm, flip=True)
-    changes = [
+    changes = [*picture.changes]
+    changes += [
         Change(
             change.what,
             (x, y),
@@ -154,7 +159,9 @@ def _drawing(
         changes=changes,
         pixel_frame=True,
     )
-    findings = [*_about(picture), *(_finding(notice, picture, where) for notice in graph.notices)]
+    findings = [*_about(picture)]
+    findings += [_finding(notice, np.array(notice.at_px), where) for notice in picture.notices]
+    findings += [_finding(notice, picture.source(np.array(notice.at_px)), where) for notice in graph.notices]
     return drawing, tuple(findings)
 
 
@@ -163,10 +170,6 @@ def _about(picture: Picture) -> list[Finding]:
     width_px = picture.skeleton.width_px * picture.factor
     if picture.light_on_dark:
         findings.append(Finding("note", "light-on-dark", "drawing", "light lines on dark ground were traced"))
-    if picture.on_table:
-        findings.append(
-            Finding("note", "dark-table", "drawing", "the dark ground around the paper is left out")
-        )
     if picture.ink.shaded:
         findings.append(
             Finding("note", "uneven-paper", "drawing", "the paper is unevenly lit; its shade was divided out")
@@ -184,8 +187,7 @@ def _about(picture: Picture) -> list[Finding]:
     return findings
 
 
-def _finding(notice: Notice, picture: Picture, where: Placement) -> Finding:
-    px = picture.source(np.array(notice.at_px))
+def _finding(notice: Notice, px: FloatArray, where: Placement) -> Finding:
     mm = where.points(px)
     place = f"at ({px[0]:.0f}, {px[1]:.0f}) px, ({mm[0]:.1f}, {mm[1]:.1f}) mm"
     return Finding(notice.level, notice.code, place, notice.message, notice.remedy)

@@ -1,0 +1,130 @@
+"""The ground that paper lies on: a table, a scanner's lid, a mat, a thumb; and shadows that hide its end.
+
+Paper is what can be reached from its brightest inked part without a step of the level: a soft shadow is
+crossed, the paper's edge is not. What then lies outside and reaches the picture's rim is ground.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, rim_of
+
+# What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow
+# that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
+_STEP = 0.14
+# Through how narrow a place does paper not go on, in cells to either side? Where a paper's slanted edge meets
+# the picture's side, its step is blurred over a few cells.
+_LEAK = 2
+# What may be paper? This share of the picture at least, with this share of the ink of the region that has
+# most; and this bright: the ground of a light drawing surrounds dark fields.
+_PAPER = 0.15
+_INKED = 0.15
+_BRIGHT = 0.7
+# How different is ground from the paper beside it? By this ratio at least, a sixth; a level a few cells away
+# from the edge on either side is compared.
+_OTHER = 1.18
+_BESIDE = 6
+# How far around the ground is painted over? The paper's edge is blurred and has a rim of shade.
+_BLURRED = 3
+# How much farther than the look past strokes may ink that touches the ground reach into the paper, if it is
+# the ground's own rim and no line that runs into it?
+_SHADE = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """Cells that are no paper; how bright they are in shares of the paper; whether lines run into them."""
+
+    where: BoolCells
+    level: float
+    crossed: bool
+
+
+def find_ground(cells: Cells) -> Ground | None:
+    """The ground around the paper; nothing where the paper fills the picture."""
+    from scipy.ndimage import binary_dilation, binary_erosion, label, maximum_filter, minimum_filter
+
+    level = np.log(cells.paper)
+    flat = maximum_filter(level, 3) - minimum_filter(level, 3) < _STEP
+    if flat.all():
+        return None
+    regions, count = label(binary_erosion(flat, iterations=_LEAK, border_value=1))
+    number = _paper_region(cells, regions, count)
+    if number is None:
+        return None
+    paper = binary_dilation(regions == number, iterations=_LEAK, mask=flat)
+    paper = binary_dilation(paper, iterations=1)
+    outside = _at_rim(~paper)
+    outside = _other(cells, outside, paper)
+    if not outside.any():
+        return None
+    rest = ~outside
+    if rest.mean() < _PAPER or (~cells.ink[rest]).mean() < _BRIGHT:
+        return None
+    usual = float(np.median(cells.paper[paper]))
+    grown = binary_dilation(outside, iterations=_BLURRED)
+    rim, crossed = _beside(cells.ink & ~grown, grown, cells.look + _SHADE)
+    return Ground(grown | rim, float(np.median(cells.level[outside])) / usual, crossed)
+
+
+def _paper_region(cells: Cells, regions: NDArray[np.int32], count: int) -> int | None:
+    """The brightest of the large regions that hold much of the ink."""
+    sizes = np.bincount(regions.ravel(), minlength=count + 1)
+    inked = np.bincount(regions[cells.ink], minlength=count + 1)
+    large = [k for k in range(1, count + 1) if sizes[k] >= _PAPER * regions.size]
+    if not large:
+        return None
+    most = max(inked[k] for k in large)
+    inked_enough = [k for k in large if inked[k] >= _INKED * most]
+    return max(inked_enough, key=lambda k: float(np.median(cells.paper[regions == k])))
+
+
+def _at_rim(where: BoolCells) -> BoolCells:
+    from scipy.ndimage import label
+
+    labels, _ = label(where)
+    touching = np.unique(rim_of(labels))
+    at_rim: BoolCells = np.isin(labels, touching[touching > 0])
+    return at_rim
+
+
+def _other(cells: Cells, outside: BoolCells, paper: BoolCells) -> BoolCells:
+    """Those pieces of the outside that differ from the paper beside them, which a stroke may part from it."""
+    from scipy.ndimage import binary_dilation, label
+
+    labels, count = label(outside)
+    result = np.zeros_like(outside)
+    for number in range(1, count + 1):
+        piece = labels == number
+        beside = binary_dilation(piece, iterations=_BESIDE) & paper
+        near = binary_dilation(beside, iterations=_BESIDE) & piece
+        if not beside.any() or not near.any():
+            continue
+        ratio = float(np.median(cells.paper[beside]) / np.median(cells.level[near]))
+        if max(ratio, 1 / ratio) > _OTHER:
+            result |= piece
+    return result
+
+
+def _beside(ink: BoolCells, ground: BoolCells, reach: int) -> tuple[BoolCells, bool]:
+    """Ink that touches the ground and stays beside it or the picture's side; whether other ink touches it.
+
+    Where the ground tapers to a sliver it is ink to all looks, so the picture's side counts as ground too.
+    """
+    from scipy.ndimage import distance_transform_edt, label
+
+    labels, count = label(ink, np.ones((3, 3)))
+    if not count:
+        return np.zeros_like(ink), False
+    nearest, farthest = np.full(count + 1, np.inf), np.zeros(count + 1)
+    np.minimum.at(nearest, labels.ravel(), distance_transform_edt(~ground).ravel())
+    inside = distance_transform_edt(np.pad(~ground, 1))[1:-1, 1:-1]
+    np.maximum.at(farthest, labels.ravel(), inside.ravel())
+    touching = nearest < 2
+    touching[0] = False
+    rim: BoolCells = (touching & (farthest <= reach))[labels]
+    return rim, bool((touching & (farthest > reach)).any())
