@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
+from wrapit.drawing.bitmap.hard_edges.pixels import block_side, is_hard, softened
 from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
 from wrapit.drawing.bitmap.paper import without_table
@@ -29,13 +30,17 @@ _OUTLINE_PX = 8.0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Ink and skeleton in working pixels; `factor` source pixels make one of them."""
+    """Ink and skeleton in working pixels; `factor` source pixels make one of them.
+
+    `stair_px` is how high the stairs along its edges are, in working pixels: 0 where grey smooths them.
+    """
 
     ink: Ink
     skeleton: Skeleton
     factor: float
     light_on_dark: bool
     on_table: bool
+    stair_px: float
 
     def source(self, points: FloatArray) -> FloatArray:
         """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""
@@ -73,20 +78,29 @@ def read_on_ruled_paper(path: Path, tracing: TracingConfig) -> Picture | None:
 
 
 def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
-    found, factor = find_ink(grey, str(path)), 1.0
+    found, factor, stair = find_ink(grey, str(path)), 1.0, 0.0
+    if is_hard(found):
+        side, stair = block_side(found.mask), 1.0
+        if side > 1:
+            grey, factor = _reduced(grey, side), float(side)
+            found = find_ink(grey, str(path))
     times = _reduction(found)
     if times > 1:
-        grey, factor = _reduced(found.grey, times), float(times)
+        grey = _reduced(softened(found).grey if stair else found.grey, times)
+        factor, stair = factor * times, stair / times
         found = replace(find_ink(grey, str(path)), shaded=found.shaded)
+    elif stair:
+        found = softened(found)
     ink = _inked(found, tracing)
     skeleton = _skeleton(ink, path)
     if skeleton.width_px < _THIN_PX:
         times = int(np.ceil(_GOOD_PX / max(skeleton.width_px, 1.0)))
         times = min(times, int(np.sqrt(_MOST_PIXELS / grey.size)))
         if times > 1:
-            ink = _inked(find_ink(_enlarged(grey, times), str(path)), tracing)
-            skeleton, factor = _skeleton(ink, path), factor / times
-    return Picture(ink, skeleton, factor, light_on_dark=False, on_table=False)
+            found, factor, stair = find_ink(_enlarged(grey, times), str(path)), factor / times, stair * times
+            ink = _inked(softened(found) if stair else found, tracing)
+            skeleton = _skeleton(ink, path)
+    return Picture(ink, skeleton, factor, light_on_dark=False, on_table=False, stair_px=stair)
 
 
 def _skeleton(ink: Ink, path: Path) -> Skeleton:
