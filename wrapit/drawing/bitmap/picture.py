@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.bitmap.hard_edges.pixels import block_side, is_hard, softened
+from wrapit.drawing.bitmap.hard_edges.pixels import block_side, is_hard, softened, stair_px
 from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
 from wrapit.drawing.bitmap.paper import without_table
@@ -84,13 +84,15 @@ def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
         if side > 1:
             grey, factor = _reduced(grey, side), float(side)
             found = find_ink(grey, str(path))
+        else:
+            stair = stair_px(found.mask)
     times = _reduction(found)
     if times > 1:
-        grey = _reduced(softened(found).grey if stair else found.grey, times)
+        grey = _reduced(softened(found, stair).grey if stair else found.grey, times)
         factor, stair = factor * times, stair / times
         found = replace(find_ink(grey, str(path)), shaded=found.shaded)
     elif stair:
-        found = softened(found)
+        found = softened(found, stair)
     ink = _inked(found, tracing)
     skeleton = _skeleton(ink, path)
     if skeleton.width_px < _THIN_PX:

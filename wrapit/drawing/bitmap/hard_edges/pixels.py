@@ -18,9 +18,11 @@ _HARD = 0.7
 # between blocks: all of them, but JPEG moves some. Larger ones than 12 are drawn as squares on purpose.
 _LARGEST_BLOCK = 12
 _BETWEEN_BLOCKS = 0.97
-# How far is a hard edge blurred before it is measured, in pixels (Gauss)? About the length of the stairs of
+# Stairs higher than this, in pixels, are no uneven enlarging but a drawing of few level and upright lines.
+_HIGHEST_STAIR = 4.0
+# How far is a hard edge blurred before it is measured, in stairs (Gauss)? About the length of the stairs of
 # a slanted edge; those of nearly level ones are longer, and left to `steady.py`.
-_BLUR_PX = 1.5
+_BLUR = 1.5
 # How near to halfway may the blur bring a pixel, in grey levels? Ink stays ink, whatever surrounds it.
 _LEAST_SIDE = 6
 
@@ -49,12 +51,22 @@ def block_side(mask: NDArray[np.bool_]) -> int:
     return 1
 
 
-def softened(ink: Ink) -> Ink:
+def stair_px(mask: NDArray[np.bool_]) -> float:
+    """How high the stairs along the edges are, in pixels: more than 1 where a picture was enlarged unevenly."""
+    gaps = np.concatenate([np.diff(np.flatnonzero(_changes(mask, axis).any(axis=1 - axis))) for axis in (0, 1)])
+    if not len(gaps):
+        return 1.0
+    # Enlarging by 2.5 makes blocks of 2 and of 3 pixels; the larger gaps are what the drawing leaves empty.
+    mean = float(gaps[gaps <= 2 * gaps.min()].mean())
+    return mean if mean <= _HIGHEST_STAIR else 1.0
+
+
+def softened(ink: Ink, stair: float = 1.0) -> Ink:
     """The ink with grey along its edges, as far as pixels tell; what is ink and what paper stays."""
     from scipy.ndimage import gaussian_filter
 
     level = np.where(ink.mask, np.uint8(0), np.uint8(255))
-    soft = gaussian_filter(level, _BLUR_PX, truncate=3.0)
+    soft = gaussian_filter(level, _BLUR * stair, truncate=3.0)
     np.minimum(soft, 127 - _LEAST_SIDE, out=soft, where=ink.mask)
     np.maximum(soft, 128 + _LEAST_SIDE, out=soft, where=~ink.mask)
     return replace(ink, grey=soft, paper=255.0, ink=0.0)
