@@ -9,6 +9,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.bitmap.hard_edges.pixels import block_side, is_hard, softened, stair_px
+from wrapit.drawing.bitmap.hard_edges.slits import without_slits
 from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
 from wrapit.drawing.bitmap.paper import without_table
@@ -86,6 +87,8 @@ def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
             found = find_ink(grey, str(path))
         else:
             stair = stair_px(found.mask)
+    if tracing.filled == "refuse" and (whole := without_slits(found)) is not found:
+        found, grey = whole, whole.grey
     times = _reduction(found)
     if times > 1:
         grey = _reduced(softened(found, stair).grey if stair else found.grey, times)
