@@ -36,6 +36,10 @@ from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, unit
 from wrapit.geometry.fitting.fit import Stroke, fit_all
 
+# How much of a stair may a curve leave out? Nearly the half that an edge is uncertain by; it counts where strokes
+# are thinner than ten stairs, and the configured tolerance finer than that.
+_STAIR = 0.4
+
 
 def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Drawing, tuple[Finding, ...]]:
     """The drawing in a bitmap, its longest side `size_mm`, and what the maker should know about it.
@@ -198,17 +202,14 @@ def _without_stairs(
     graph: StrandGraph, lines: dict[int, Line], width_px: float, stair_px: float
 ) -> dict[int, Line]:
     return {
-        strand: steadied(
-            lines[strand], s.start == s.end and graph.degree(s.start) == 2, width_px, stair_px
-        )
+        strand: steadied(lines[strand], s.start == s.end and graph.degree(s.start) == 2, width_px, stair_px)
         for strand, s in graph.strands.items()
     }
 
 
 def _tolerance(picture: Picture, tracing: TracingConfig) -> float:
     """How far curves may leave the points, in stroke widths: no stairs are followed."""
-    import os
-    return max(tracing.tolerance, float(os.environ.get("TOL", "0.4")) * picture.stair_px / picture.skeleton.width_px)
+    return max(tracing.tolerance, _STAIR * picture.stair_px / picture.skeleton.width_px)
 
 
 def _fitted(

@@ -31,10 +31,10 @@ def is_hard(ink: Ink) -> bool:
     """Whether ink turns into paper from one pixel to the next, without grey between."""
     limit = _FULL_STEP * (ink.paper - ink.ink)
     steps = full = 0
-    for axis in (0, 1):
-        row, column = np.nonzero(_changes(ink.mask, axis))
-        before = ink.grey[row, column].astype(np.int16)
-        after = ink.grey[row + (axis == 0), column + (axis == 1)]
+    # Every third row and column tells enough.
+    for mask, grey in ((ink.mask[::3], ink.grey[::3]), (ink.mask[:, ::3].T, ink.grey[:, ::3].T)):
+        row, column = np.nonzero(_changes(mask, 1))
+        before, after = grey[row, column].astype(np.int16), grey[row, column + 1]
         steps += len(row)
         full += np.count_nonzero(np.abs(before - after) > limit)
     return full > _HARD * steps
@@ -53,7 +53,9 @@ def block_side(mask: NDArray[np.bool_]) -> int:
 
 def stair_px(mask: NDArray[np.bool_]) -> float:
     """How high the stairs along the edges are, in pixels: more than 1 where a picture was enlarged unevenly."""
-    gaps = np.concatenate([np.diff(np.flatnonzero(_changes(mask, axis).any(axis=1 - axis))) for axis in (0, 1)])
+    gaps = np.concatenate(
+        [np.diff(np.flatnonzero(_changes(mask, axis).any(axis=1 - axis))) for axis in (0, 1)]
+    )
     if not len(gaps):
         return 1.0
     # Enlarging by 2.5 makes blocks of 2 and of 3 pixels; the larger gaps are what the drawing leaves empty.

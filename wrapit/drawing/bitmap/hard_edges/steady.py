@@ -7,7 +7,6 @@ that grow where it leaves the points keep it inside the band that the pixels lea
 
 from __future__ import annotations
 
-import os
 from itertools import pairwise
 
 import numpy as np
@@ -17,14 +16,17 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
 
-# What is a wave that the pixels made, in stroke widths? Shorter ones go, longer ones stay.
-_WAVE = float(os.environ.get("WAVE", "4"))
+# What is a wave that the pixels made, in stroke widths? Shorter ones go, longer ones stay. On 30 thresholded
+# drawings 3 leaves 1.40 times the Béziers of the smooth ones at the 95th percentile, 5 takes 1.31 but moves
+# curves by 0.1 px more (in the median of the largest shifts).
+_WAVE = 4.0
 # How far may the line leave the measured points, in stairs? The middle of two edges is off by 0.2 (standard
-# deviation) and never by more than a half.
-_BAND = float(os.environ.get("OFF", "0.4"))
-# How often are the weights of points outside the band raised?
+# deviation) and never by more than a half. 0.3 to 0.8 change the Béziers by 1 %; 0.8 moves curves by 0.04 px more.
+_BAND = 0.4
+# How often are the weights of points outside the band raised? As they are squared each time, four times is a
+# factor of thousands where a point stays outside.
 _ROUNDS = 4
-# What is a point worth where other ink disturbs the width?
+# What is a point worth where other ink disturbs the width? Enough to keep the line at hand, no more.
 _UNCLEAN = 0.05
 # The third difference of four points: what is smooth is a quadratic.
 _DIFFERENCE = (-1.0, 3.0, -3.0, 1.0)
@@ -55,9 +57,7 @@ def _ring(line: Line, width_px: float, stair_px: float) -> FloatArray:
     return np.vstack([ring, ring[:1]])
 
 
-def _smoothest(
-    points: FloatArray, clean: NDArray[np.bool_], width_px: float, stair_px: float
-) -> FloatArray:
+def _smoothest(points: FloatArray, clean: NDArray[np.bool_], width_px: float, stair_px: float) -> FloatArray:
     from scipy.linalg import solveh_banded
 
     order = len(_DIFFERENCE) - 1
