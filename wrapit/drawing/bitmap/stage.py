@@ -36,8 +36,8 @@ from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, unit
 from wrapit.geometry.fitting.fit import Stroke, fit_all
 
-# How much of a stair may a curve leave out? Nearly the half that an edge is uncertain by; it counts where strokes
-# are thinner than ten stairs, and the configured tolerance finer than that.
+# How much of a stair may a curve leave out? Nearly the half that an edge is uncertain by; it counts where
+# strokes are thinner than ten stairs, and the configured tolerance finer than that.
 _STAIR = 0.4
 
 

@@ -36,7 +36,7 @@ def is_hard(ink: Ink) -> bool:
         row, column = np.nonzero(_changes(mask, 1))
         before, after = grey[row, column].astype(np.int16), grey[row, column + 1]
         steps += len(row)
-        full += np.count_nonzero(np.abs(before - after) > limit)
+        full += int(np.count_nonzero(np.abs(before - after) > limit))
     return full > _HARD * steps
 
 
@@ -52,7 +52,7 @@ def block_side(mask: NDArray[np.bool_]) -> int:
 
 
 def stair_px(mask: NDArray[np.bool_]) -> float:
-    """How high the stairs along the edges are, in pixels: more than 1 where a picture was enlarged unevenly."""
+    """How high the stairs along the edges are, in pixels: more than 1 where enlarged unevenly."""
     gaps = np.concatenate(
         [np.diff(np.flatnonzero(_changes(mask, axis).any(axis=1 - axis))) for axis in (0, 1)]
     )

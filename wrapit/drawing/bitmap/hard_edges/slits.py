@@ -1,7 +1,7 @@
 """Slits across strokes: paper that shows between polygons painted end to end is closed.
 
-A slit is much narrower than the stroke, and with it closed the ink is no broader than one stroke. That tells it
-from a white line between two strokes, from the notch between strokes that part, and from a small ring.
+A slit is much narrower than the stroke, and with it closed the ink is no broader than one stroke. That tells
+it from a white line between two strokes, from the notch between strokes that part, and from a small ring.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.ink import Ink
 
-# In stroke widths. How wide is a slit at most? A wider one may be a gap that was meant; `gaps.py` looks at those.
+# In stroke widths. How wide is a slit at most? A wider one may be a gap that was meant, for `gaps.py`.
 _WIDEST = 0.22
-# How deep in the closed ink does it reach at least? Shallower ones, stairs among them, don't disturb the skeleton.
+# How deep in the closed ink does it reach at least? Shallower ones, stairs among them, don't disturb much.
 _DEEP = 0.25
 # How far from paper is the middle of one stroke at most? Half a width, and up to 0.71 where two cross; where
 # two strokes lie side by side or part it is a whole one.
 _ONE_STROKE = 0.75
-# How many such slits make a picture one of polygons? A notch or a gap of its own may be meant: of 54 drawings on
-# paper none has more than two.
+# How many such slits make a picture one of polygons? A notch or a gap of its own may be meant: of 54 pictures
+# of the corpus none has more than two.
 _FEWEST = 4
 # A slit is as long as the stroke is broad, and longer where it is slanted; a line between strokes is longer.
 _LONGEST = 1.6
@@ -70,7 +70,7 @@ def _widest_that_fits(mask: Mask) -> tuple[Mask, float] | None:
 
 
 def _across_one_stroke(closed: Mask, found: Mask, inside: Mask, width_px: float) -> Mask | None:
-    """Those pieces of `found` where the closed ink is one stroke; nothing where too few of them reach inside."""
+    """Those pieces of `found` where the closed ink is one stroke; nothing where too few reach inside."""
     from scipy.ndimage import distance_transform_edt, find_objects, label, maximum
 
     pieces, count = label(found, np.ones((3, 3)))
