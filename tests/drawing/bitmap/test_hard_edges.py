@@ -92,7 +92,8 @@ def test_blocks_and_stairs_are_found(turn, width, side):
     assert not is_hard(find_ink(picture, "wave"))
     mask = picture < 128
     assert block_side(mask) == 1
-    assert stair_px(mask) == pytest.approx(1.0, abs=0.15)
+    # Level waves leave some rows out.
+    assert 1.0 <= stair_px(mask) < 1.4
     assert block_side(np.kron(mask, np.ones((side, side), dtype=bool))) == side
     assert is_hard(find_ink(np.where(mask, np.uint8(0), np.uint8(255)), "wave"))
 
