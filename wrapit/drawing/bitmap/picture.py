@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
+from wrapit.drawing.bitmap.hard_edges.pixels import block_side, is_hard, softened, stair_px
+from wrapit.drawing.bitmap.hard_edges.slits import without_slits
 from wrapit.drawing.bitmap.image import GreyImage, count_levels, load_grey
 from wrapit.drawing.bitmap.ink import Ink, darker_ink, find_ink
 from wrapit.drawing.bitmap.page.stage import Page, drawing_alone, is_bright_page
@@ -32,12 +34,14 @@ _OUTLINE_PX = 8.0
 class Picture:
     """Ink and skeleton in working pixels; `factor` source pixels make one of them.
 
+    `stair_px` is how high the stairs along its edges are, in working pixels: 0 where grey smooths them.
     What was left out around the drawing is told in source pixels.
     """
 
     ink: Ink
     skeleton: Skeleton
     factor: float
+    stair_px: float = 0.0
     light_on_dark: bool = False
     changes: tuple[Change, ...] = ()
     notices: tuple[Notice, ...] = ()
@@ -82,20 +86,33 @@ def _told(picture: Picture, page: Page, light_on_dark: bool) -> Picture:
 
 
 def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
-    found, factor = find_ink(grey, str(path)), 1.0
+    found, factor, stair = find_ink(grey, str(path)), 1.0, 0.0
+    if is_hard(found):
+        side, stair = block_side(found.mask), 1.0
+        if side > 1:
+            grey, factor = _reduced(grey, side), float(side)
+            found = find_ink(grey, str(path))
+        else:
+            stair = stair_px(found.mask)
+    if tracing.filled == "refuse" and (whole := without_slits(found)) is not found:
+        found, grey = whole, whole.grey
     times = _reduction(found)
     if times > 1:
-        grey, factor = _reduced(found.grey, times), float(times)
+        grey = _reduced(softened(found, stair).grey if stair else found.grey, times)
+        factor, stair = factor * times, stair / times
         found = replace(find_ink(grey, str(path)), shaded=found.shaded)
+    elif stair:
+        found = softened(found, stair)
     ink = _inked(found, tracing)
     skeleton = _skeleton(ink, path)
     if skeleton.width_px < _THIN_PX:
         times = int(np.ceil(_GOOD_PX / max(skeleton.width_px, 1.0)))
         times = min(times, int(np.sqrt(_MOST_PIXELS / grey.size)))
         if times > 1:
-            ink = _inked(find_ink(_enlarged(grey, times), str(path)), tracing)
-            skeleton, factor = _skeleton(ink, path), factor / times
-    return Picture(ink, skeleton, factor)
+            found, factor, stair = find_ink(_enlarged(grey, times), str(path)), factor / times, stair * times
+            ink = _inked(softened(found) if stair else found, tracing)
+            skeleton = _skeleton(ink, path)
+    return Picture(ink, skeleton, factor, stair)
 
 
 def _skeleton(ink: Ink, path: Path) -> Skeleton:

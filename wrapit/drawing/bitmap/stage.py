@@ -20,6 +20,7 @@ from wrapit.drawing.bitmap.cleanup import (
 from wrapit.drawing.bitmap.corners import open_tips, split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
+from wrapit.drawing.bitmap.hard_edges.steady import steadied
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.pairing import kinked, pair
@@ -33,6 +34,10 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.fitting.fit import Stroke, fit_all
+
+# How much of a stair may a curve leave out? Nearly the half that an edge is uncertain by; it counts where
+# strokes are thinner than ten stairs, and the configured tolerance finer than that.
+_STAIR = 0.4
 
 
 def trace_bitmap(path: Path, tracing: TracingConfig, size_mm: float) -> tuple[Drawing, tuple[Finding, ...]]:
@@ -124,7 +129,9 @@ def _traced(
     split_corners(graph, lines, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
     drop_short(graph, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
-    pieces = _fitted(graph, lines, ink, width_px, tracing.tolerance)
+    if picture.stair_px:
+        lines = _without_stairs(graph, lines, width_px, picture.stair_px)
+    pieces = _fitted(graph, lines, ink, width_px, _tolerance(picture, tracing))
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
@@ -191,6 +198,20 @@ def _finding(notice: Notice, px: FloatArray, where: Placement) -> Finding:
     mm = where.points(px)
     place = f"at ({px[0]:.0f}, {px[1]:.0f}) px, ({mm[0]:.1f}, {mm[1]:.1f}) mm"
     return Finding(notice.level, notice.code, place, notice.message, notice.remedy)
+
+
+def _without_stairs(
+    graph: StrandGraph, lines: dict[int, Line], width_px: float, stair_px: float
+) -> dict[int, Line]:
+    return {
+        strand: steadied(lines[strand], s.start == s.end and graph.degree(s.start) == 2, width_px, stair_px)
+        for strand, s in graph.strands.items()
+    }
+
+
+def _tolerance(picture: Picture, tracing: TracingConfig) -> float:
+    """How far curves may leave the points, in stroke widths: no stairs are followed."""
+    return max(tracing.tolerance, _STAIR * picture.stair_px / picture.skeleton.width_px)
 
 
 def _fitted(
