@@ -13,8 +13,8 @@ from scipy.spatial import cKDTree
 from tests.jig.metal import scribble
 from wrapit.geometry import BezierChain, BSpline, FloatArray, from_chain, straight
 from wrapit.geometry.arclength import ArcLength
-from wrapit.wires import neighbours
-from wrapit.wires.neighbours import Neighbours
+from wrapit.wires import nearness
+from wrapit.wires.nearness import Neighbours
 from wrapit.wires.stacking import SELF_DIAMETERS, SELF_ROUNDS, STEP_MM, _points, _ramped, lay_wires
 
 
@@ -100,7 +100,7 @@ def test_pairs_are_the_same_however_few_are_looked_at_together(monkeypatch: pyte
         return len(parts), set(found)
 
     at_once, all_pairs = pairs()
-    monkeypatch.setattr(neighbours, "PAIRS_AT_ONCE", 500)
+    monkeypatch.setattr(nearness, "PAIRS_AT_ONCE", 500)
     apart, few_at_a_time = pairs()
     assert at_once == 1 < apart
     plain = {(int(b), int(a)) for a, b in cKDTree(points).query_pairs(1.0) if b >= 150}
@@ -113,7 +113,7 @@ def test_pairs_grow_with_the_wires(monkeypatch: pytest.MonkeyPatch) -> None:
     trees: list[int] = []
     looked, sorted_once = Neighbours._pairs, Neighbours.of
 
-    def counting(self: Neighbours, stations: np.ndarray) -> neighbours.Near:
+    def counting(self: Neighbours, stations: np.ndarray) -> nearness.Near:
         near = looked(self, stations)
         counted[-1] += len(near.later)
         return near

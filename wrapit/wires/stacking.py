@@ -9,7 +9,7 @@ import numpy as np
 
 from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
-from wrapit.wires.neighbours import Neighbours
+from wrapit.wires.nearness import Neighbours
 
 # How closely wires are compared: heights change by 1e-3 mm with a third more or less.
 STEP_MM = 0.1
