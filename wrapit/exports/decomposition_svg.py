@@ -7,7 +7,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from wrapit.decomposition.model import Solution
-from wrapit.exports.svgpage import FONT, attributes, bounds_with_labels, leader, page, text
+from wrapit.exports.svgpage import (
+    CROWDED_RINGS,
+    FONT,
+    MANY_LABELS,
+    attributes,
+    bounds_with_labels,
+    crowded_size_mm,
+    leader,
+    page,
+    text,
+)
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
@@ -23,18 +33,21 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     """SVG in true millimetres: each wire in its colour and thickness, its number where it starts.
 
     Wire ends have a dark ring; a segment that is run along twice is drawn as two lines side by side.
+    Of very many wires those without room have no number; each says its own where the pointer rests on it.
     """
     low, high = solution.decomposition.drawing.bounds_mm
-    size_mm = float(np.clip(np.max(high - low) / 18, 1.6, 3.5))
+    crowded = len(wires) > MANY_LABELS
+    size_mm = crowded_size_mm(float(np.clip(np.max(high - low) / 18, 1.6, 3.5)), low, high, len(wires))
     ink = np.vstack([chain_of(wire.centreline).sampled(0.3 * size_mm) for wire in wires])
-    labels = place_labels([(str(wire.number), wire.ends[:1]) for wire in wires], ink, size_mm)
+    wanted = [(str(wire.number), wire.ends[:1]) for wire in wires]
+    labels = place_labels(wanted, ink, size_mm, rings=CROWDED_RINGS if crowded else None)
     low, high = bounds_with_labels(low, high, labels)
     frame = SvgFrame.around(low, high, size_mm)
     doubled = set(solution.doubled)
     body = [f'<g font-family="{FONT}" font-weight="bold">']
     seen: set[int] = set()
     for wire in wires:
-        body += _strokes(wire, doubled, seen, frame)
+        body += _strokes(wire, doubled, seen, frame, named=crowded)
     for wire in wires:
         body += _ends(wire, frame)
     body += [*_numbers(wires, labels, frame, size_mm), "</g>"]
@@ -43,7 +56,7 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     return page(frame, f"The drawing divided into {count}", f"Lengths: {lengths}", body)
 
 
-def _strokes(wire: Wire, doubled: set[int], seen: set[int], frame: SvgFrame) -> list[str]:
+def _strokes(wire: Wire, doubled: set[int], seen: set[int], frame: SvgFrame, *, named: bool) -> list[str]:
     """The wire as paths; `seen` collects the doubled segments drawn so far, by any wire."""
     chain = chain_of(wire.centreline)
     shapes: list[str] = []
@@ -69,7 +82,8 @@ def _strokes(wire: Wire, doubled: set[int], seen: set[int], frame: SvgFrame) -> 
         stroke_linejoin="round",
     )
     drawn = [f"<path {attributes(d=shape)}/>" for shape in shapes]
-    return [f'<g id="{wire.name}" {style}>', *drawn, "</g>"]
+    tip = [f"<title>wire {wire.number}</title>"] if named else []
+    return [f'<g id="{wire.name}" {style}>', *tip, *drawn, "</g>"]
 
 
 def _beside(chain: BezierChain, shift_mm: float) -> FloatArray:
@@ -88,14 +102,15 @@ def _ends(wire: Wire, frame: SvgFrame) -> list[str]:
 
 def _numbers(wires: Sequence[Wire], labels: Sequence[Label], frame: SvgFrame, size_mm: float) -> list[str]:
     shapes = []
-    for wire, label in zip(wires, labels, strict=True):
+    colours = {str(wire.number): wire.colour for wire in wires}
+    for label in labels:
         if label.leader:
             shapes.append(leader(frame, label, OUTLINE, size_mm))
         x, y = frame.at(label.centre)
         half_x, half_y = label.half_size
         box = attributes(
             x=x - half_x, y=y - half_y, width=2 * half_x, height=2 * half_y, rx=0.3 * size_mm,
-            fill="#ffffff", stroke=wire.colour, stroke_width=0.14 * size_mm,
+            fill="#ffffff", stroke=colours[label.text], stroke_width=0.14 * size_mm,
         )  # fmt: skip
         shapes += [f"<rect {box}/>", text(frame, label.centre, label.text, size_mm, fill=OUTLINE)]
     return shapes

@@ -9,6 +9,7 @@ import numpy as np
 
 from wrapit.drawing.model import Drawing, Removal
 from wrapit.exports.svgpage import (
+    CROWDED_RINGS,
     FONT,
     MANY_LABELS,
     anchors,
@@ -28,8 +29,6 @@ from wrapit.geometry.svgframe import SvgFrame
 INK, BRIDGE, SEGMENT_NUMBER, JUNCTION, REMOVED = "#1c1c1c", "#7a3fa0", "#0b5a8a", "#b02a1a", "#8a5a00"
 # More numbers can't be read at any size that shows the drawing.
 MOST_LABELS = 8000
-# Where there are many numbers, those that find no place so near are left out.
-CROWDED_RINGS = 6
 
 
 def drawing_svg(drawing: Drawing) -> str:

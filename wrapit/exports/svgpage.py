@@ -17,6 +17,8 @@ from wrapit.geometry.svgframe import SvgFrame, number
 FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 # From here on labels would cover the drawing at their usual size.
 MANY_LABELS = 200
+# Where there are many labels, those that find no place so near are left out.
+CROWDED_RINGS = 6
 # Where along a curve its number stands, the best place first.
 ANCHOR_SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 
@@ -81,14 +83,18 @@ def anchors(curve: BezierChain, *, quickly: bool) -> FloatArray:
 def label_size_mm(curves: Sequence[BezierChain], low: FloatArray, high: FloatArray, labels: int) -> float:
     """Text height for these curves: as tall as the page allows, smaller where curves are short.
 
-    Where there are very many labels it is smaller still, to be read enlarged on a screen: together they
-    take a quarter of the page or less.
+    Where there are very many labels it is smaller still, to be read enlarged on a screen.
     """
     longest_side = float(np.max(high - low))
     typical = float(np.median([curve.length for curve in curves]))
-    size_mm = float(np.clip(min(longest_side / 22, typical / 3), 1.0, 3.0))
+    return crowded_size_mm(float(np.clip(min(longest_side / 22, typical / 3), 1.0, 3.0)), low, high, labels)
+
+
+def crowded_size_mm(size_mm: float, low: FloatArray, high: FloatArray, labels: int) -> float:
+    """Text height of at most `size_mm` at which very many labels take a quarter of the page or less."""
     if labels <= MANY_LABELS:
         return size_mm
+    longest_side = float(np.max(high - low))
     digits = len(str(labels))
     each = (digits * DIGIT_WIDTH + 2 * PADDING) * (1 + 2 * PADDING)
     page_mm2 = float(np.prod(np.maximum(high - low, longest_side / 10)))

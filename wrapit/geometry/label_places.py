@@ -103,26 +103,35 @@ class _Field:
 def _place(
     text: str, anchors: FloatArray, half: FloatArray, field: _Field, text_mm: float, rings: int
 ) -> Label | None:
-    fallback: tuple[int, FloatArray, FloatArray, int] | None = None
+    fallback: tuple[int, Label] | None = None
     for ring in range(rings):
         # The support of the box in each direction keeps its nearest side at one distance.
         reach = np.abs(_DIRECTIONS) @ half + text_mm * (0.15 + 0.45 * ring)
-        centres = (anchors[:, None] + (_DIRECTIONS * reach[:, None])[None]).reshape(-1, 2)
-        low, high = centres.min(axis=0) - half, centres.max(axis=0) + half
-        free = np.flatnonzero(~_overlaps(centres, half, field.boxes_near(low, high)))
-        if not len(free):
-            continue
-        hits = _hits(centres[free], half, field.ink_in(low, high))
-        clear = free[hits == 0]
-        best = int(clear[0] if len(clear) else free[np.argmin(hits)])
-        fewest = int(hits.min())
-        if fewest == 0:
-            return _label(text, centres[best], half, anchors[best // len(_DIRECTIONS)], ring)
-        if fallback is None or fewest < fallback[0]:
-            fallback = fewest, centres[best], anchors[best // len(_DIRECTIONS)], ring
-        if ring >= 8:
-            return _label(text, fallback[1], half, fallback[2], fallback[3])
+        room = False
+        # One anchor after the other: those of a long curve lie far apart, with much ink between them.
+        for anchor in anchors:
+            best = _best(anchor + _DIRECTIONS * reach[:, None], half, field)
+            if best is None:
+                continue
+            room, (hits, centre) = True, best
+            if hits == 0:
+                return _label(text, centre, half, anchor, ring)
+            if fallback is None or hits < fallback[0]:
+                fallback = hits, _label(text, centre, half, anchor, ring)
+        if room and fallback is not None and ring >= 8:
+            return fallback[1]
     return None
+
+
+def _best(centres: FloatArray, half: FloatArray, field: _Field) -> tuple[int, FloatArray] | None:
+    """The first of the free places with the fewest points of ink, and how many; None where none is free."""
+    low, high = centres.min(axis=0) - half, centres.max(axis=0) + half
+    free = centres[~_overlaps(centres, half, field.boxes_near(low, high))]
+    if not len(free):
+        return None
+    hits = _hits(free, half, field.ink_in(low, high))
+    first = int(np.argmin(hits))
+    return int(hits[first]), free[first]
 
 
 def _label(text: str, centre: FloatArray, half: FloatArray, anchor: FloatArray, ring: int) -> Label:

@@ -9,6 +9,7 @@ import numpy as np
 
 from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
+from wrapit.wires.nearness import Neighbours
 
 # How closely wires are compared: heights change by 1e-3 mm with a third more or less.
 STEP_MM = 0.1
@@ -28,15 +29,20 @@ def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[Profile]:
     A later wire rests on the earlier ones: wherever two centrelines are nearer than a diameter in the
     plane, the later is raised until they are one diameter apart in space. Flat wires have no points.
     """
+    lines = [ArcLength(spline) for spline in splines]
+    stations = [each.stations(STEP_MM) for each in lines]
+    points = [each.spline.at(each.parameter(at_mm)) for each, at_mm in zip(lines, stations, strict=True)]
+    if not points:
+        return []
+    cloud = Neighbours.of(np.concatenate(points), diameter_mm)
+    heights = np.zeros(len(cloud))
     profiles: list[Profile] = []
-    below, heights = np.empty((0, 2)), np.empty(0)
-    for spline in splines:
-        lengths = ArcLength(spline)
-        at_mm = lengths.stations(STEP_MM)
-        points = spline.at(lengths.parameter(at_mm))
-        z_mm = _resting(points, at_mm, below, heights, diameter_mm)
+    first = 0
+    for at_mm in stations:
+        laid = slice(first, first + len(at_mm))
+        heights[laid] = z_mm = _resting(cloud, laid, at_mm, heights, diameter_mm)
         profiles.append(_points(at_mm, z_mm) if z_mm.max() > 1e-9 else ())
-        below, heights = np.concatenate([below, points]), np.concatenate([heights, z_mm])
+        first += len(at_mm)
     return profiles
 
 
@@ -45,35 +51,25 @@ def layers_of(profile: Profile, diameter_mm: float) -> int:
     return 1 + math.ceil(max((z for _, z in profile), default=0.0) / diameter_mm - 1e-3)
 
 
-def _resting(
-    points: FloatArray, at_mm: FloatArray, below: FloatArray, heights: FloatArray, d: float
-) -> FloatArray:
-    from scipy.spatial import cKDTree
-
-    needed = np.zeros(len(points))
-    if len(below):
-        for index, near in enumerate(cKDTree(below).query_ball_point(points, d)):
-            if near:
-                needed[index] = _on_top(points[index], below[near], heights[near], d)
-    meetings = [
-        (index, earlier)
-        for index, near in enumerate(cKDTree(points).query_ball_point(points, d))
-        if (earlier := [i for i in near if at_mm[index] - at_mm[i] > SELF_DIAMETERS * d])
-    ]
+def _resting(cloud: Neighbours, laid: slice, at_mm: FloatArray, heights: FloatArray, d: float) -> FloatArray:
+    """Heights of the stations `laid` of one wire, above those before them in the cloud."""
+    needed, meetings = np.zeros(len(at_mm)), []
+    for near in cloud.before(laid):
+        rise = np.sqrt(np.maximum(d**2 - near.apart2, 0.0))
+        below = near.earlier < laid.start
+        np.maximum.at(needed, near.later[below] - laid.start, (heights[near.earlier] + rise)[below])
+        later, earlier = near.later[~below] - laid.start, near.earlier[~below] - laid.start
+        itself = at_mm[later] - at_mm[earlier] > SELF_DIAMETERS * d
+        meetings.append((later[itself], earlier[itself], rise[~below][itself]))
     profile = _ramped(needed, d)
     for _ in range(SELF_ROUNDS):
-        for index, earlier in meetings:
-            needed[index] = max(needed[index], _on_top(points[index], points[earlier], profile[earlier], d))
+        for later, earlier, rise in meetings:
+            np.maximum.at(needed, later, profile[earlier] + rise)
         raised = _ramped(needed, d)
         if np.array_equal(raised, profile):
             break
         profile = raised
     return profile
-
-
-def _on_top(point: FloatArray, others: FloatArray, heights: FloatArray, d: float) -> float:
-    apart2 = ((others - point) ** 2).sum(axis=1)
-    return float((heights + np.sqrt(np.maximum(d**2 - apart2, 0.0))).max())
 
 
 def _ramped(needed: FloatArray, d: float) -> FloatArray:
