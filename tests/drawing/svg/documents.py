@@ -98,7 +98,7 @@ def _transforms(page: Page, css: bool, count: int) -> tuple[str, Matrix]:
     px = "px" if css else ""
     for _ in range(count):
         x, y = rng.uniform(-12, 12, 2).round(3)
-        angle, k, m = float(rng.uniform(-80, 80).round(2)), *rng.uniform(0.8, 1.15, 2).round(3)
+        angle, k, m = round(float(rng.uniform(-80, 80)), 2), *rng.uniform(0.8, 1.15, 2).round(3)
         deg = f"{angle}deg" if css else f"{angle}"
         turn = page.one_of(deg, f"{angle / 360}turn", f"{math.radians(angle)}rad") if css else deg
         lean = f"{angle / 4}deg" if css else f"{angle / 4}"
@@ -123,7 +123,7 @@ def _transforms(page: Page, css: bool, count: int) -> tuple[str, Matrix]:
     return page.one_of(" ", "  " if css else ",").join(texts), matrix
 
 
-def fitted(view: tuple[float, float, float, float], port: View, how: str) -> Matrix:
+def fitted(view: tuple[float, ...], port: View, how: str) -> Matrix:
     """The matrix that `preserveAspectRatio` means (SVG 2, 8.2)."""
     x, y, w, h = view
     sx, sy = port[0] / w, port[1] / h
@@ -363,24 +363,43 @@ def document(parts: tuple[Part, ...], root: str = "plain", prefixed: bool = Fals
     bodies, well = [], True
     page = Page(np.random.default_rng(0))
     for part in parts:
-        page.rng = np.random.default_rng(part.seed)
-        view, matrix, around = (SIDE, SIDE), np.eye(3), []
-        for name in part.wrappers:
-            wrap, step, view, known = WRAPPERS[name](page, view)
-            matrix = matrix @ step
-            around.append(wrap)
-            well = well and known
-        shape = KINDS[part.kind](page.rng, view)
+        around, matrix, shape, known = _on_the_page(page, part)
         width = round(float(page.rng.uniform(1.5, 3.0)), 2)
         said = page.one_of(f"{width}", f"{width}px", f"{width * 25.4 / 96}mm")
         attributes, outer = STYLES[part.style](page, said)
         text = outer(_element(shape, attributes))
         for wrap in reversed(around):
             text = wrap(text)
+        # Shares of a symbol's view are measured by the page in resvg, its own by its viewBox; SVG 2 has
+        # them the other way round (5.6: what `use` sets stands on the symbol, which is a view of its own).
+        shares = "symbol" in part.wrappers and "%" in f"{text}{page.defs}"
+        well = well and known and not shares
         bodies.append(text + (_unseen(page) if part.unseen else ""))
         factor = math.sqrt(abs(np.linalg.det(matrix[:2, :2])))
         curves += [(placed(matrix, curve), width * factor) for curve in shape.curves]
     return _finished(page, bodies, curves, root, prefixed, well)
+
+
+# How often a part is thrown anew until it lies on the page; fewer than one in a thousand needs as many.
+_THROWS = 60
+
+
+def _on_the_page(page: Page, part: Part) -> tuple[list[Callable[[str], str]], Matrix, Shape, bool]:
+    """What surrounds a part, its matrix and its shape: what leaves the page is no ink, so none does."""
+    rules, names = [*page.rules], page.names
+    for throw in range(_THROWS):
+        page.rng, page.rules, page.names = np.random.default_rng([part.seed, throw]), [*rules], names
+        view, matrix, well = (SIDE, SIDE), np.eye(3), True
+        around = []
+        for name in part.wrappers:
+            wrap, step, view, known = WRAPPERS[name](page, view)
+            matrix, well = matrix @ step, well and known
+            around.append(wrap)
+        shape = KINDS[part.kind](page.rng, view)
+        hull = placed(matrix, np.concatenate([curve.reshape(-1, 2) for curve in shape.curves] or [[]]))
+        if hull.min() > 5 and hull.max() < SIDE - 5 and np.ptp(hull, axis=0).max() > SIDE / 10:
+            break
+    return around, matrix, shape, well
 
 
 ROOTS: dict[str, tuple[str, View, str]] = {

@@ -68,10 +68,11 @@ def rendered(svg: str | bytes | Path, longest_px: int) -> tuple[NDArray[np.uint8
     import resvg_py
 
     where = {"svg_path": str(svg)} if isinstance(svg, Path) else {"svg_string": _text(svg)}
-    own = Image.open(io.BytesIO(bytes(resvg_py.svg_to_bytes(**where, skip_system_fonts=True))))
-    # Small pages are rounded to whole pixels; ten times as large the scale is known to a per mille.
+    # Without `dpi` the renderer takes every mm for nothing.
+    how = {"skip_system_fonts": True, "dpi": 96.0, "background": "white"}
+    own = Image.open(io.BytesIO(bytes(resvg_py.svg_to_bytes(**where, **how))))
     zoom = longest_px / max(own.size)
-    picture = resvg_py.svg_to_bytes(**where, skip_system_fonts=True, background="white", zoom=zoom)
+    picture = resvg_py.svg_to_bytes(**where, **how, zoom=zoom)
     return np.asarray(Image.open(io.BytesIO(bytes(picture))).convert("L")), zoom
 
 

@@ -110,7 +110,7 @@ def _line(rng: np.random.Generator, view: tuple[float, float]) -> Shape:
 
 def _poly(rng: np.random.Generator, view: tuple[float, float]) -> Shape:
     x, y, size = _place(rng, view)
-    angles = np.sort(rng.uniform(0, 2 * math.pi)) + np.cumsum(rng.uniform(0.8, 1.9, rng.integers(3, 5)))
+    angles = rng.uniform(0, 2 * math.pi) + np.cumsum(rng.uniform(0.8, 1.9, rng.integers(3, 5)))
     points = [np.array([x + size * math.cos(a), y + size * math.sin(a)]).round(4) for a in angles]
     closed = bool(rng.integers(2))
     joint = [" ", ",", " , ", "\n"][rng.integers(4)]
