@@ -234,7 +234,9 @@ def _symbol(page: Page, view: View) -> Wrapped:
 
 
 def _switch(page: Page, view: View) -> Wrapped:
-    decoy = '<path systemLanguage="xx" d="M20 20L120 20"/><path requiredExtensions="http://e.x/" d="M9 99H99"/>'
+    decoy = (
+        '<path systemLanguage="xx" d="M20 20L120 20"/><path requiredExtensions="http://e.x/" d="M9 99H99"/>'
+    )
     rest = '<path d="M30 90L150 96"/>'
     return lambda inner: f"<switch>{decoy}<g>{inner}</g>{rest}</switch>", np.eye(3), view, True
 
@@ -412,7 +414,12 @@ ROOTS: dict[str, tuple[str, View, str]] = {
 
 
 def _finished(
-    page: Page, bodies: list[str], curves: list[tuple[FloatArray, float]], root: str, prefixed: bool, well: bool
+    page: Page,
+    bodies: list[str],
+    curves: list[tuple[FloatArray, float]],
+    root: str,
+    prefixed: bool,
+    well: bool,
 ) -> Document:
     size, port, how = ROOTS[root]
     box = (0.0, 0.0, SIDE, SIDE)

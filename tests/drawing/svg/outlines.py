@@ -15,7 +15,16 @@ import numpy as np
 from wrapit.geometry import FloatArray
 
 # CSS: an inch is 96 pixels, a point a 72nd of one; `em` is 16 px where nobody sets a font.
-UNITS = {"": 1.0, "px": 1.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0, "pt": 4 / 3, "pc": 16.0, "em": 16.0}
+UNITS = {
+    "": 1.0,
+    "px": 1.0,
+    "mm": 96 / 25.4,
+    "cm": 960 / 25.4,
+    "in": 96.0,
+    "pt": 4 / 3,
+    "pc": 16.0,
+    "em": 16.0,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +65,9 @@ def _turned_arc(
     return np.array(cubics)
 
 
-def arc(p: FloatArray, q: FloatArray, rx: float, ry: float, tilt: float, large: bool, sweep: bool) -> FloatArray:
+def arc(
+    p: FloatArray, q: FloatArray, rx: float, ry: float, tilt: float, large: bool, sweep: bool
+) -> FloatArray:
     """The elliptical arc from p to q (SVG 2, appendix B.2.4): a line for radius 0, grown where too small."""
     rx, ry = abs(rx), abs(ry)
     if rx == 0 or ry == 0:
@@ -105,7 +116,9 @@ def _line(rng: np.random.Generator, view: tuple[float, float]) -> Shape:
     dx, dy = size * math.cos(a), size * math.sin(a)
     ends = {"x1": x - dx, "y1": y - dy, "x2": x + dx, "y2": y + dy}
     written = {key: length(rng, value, view[key[0] == "y"]) for key, value in ends.items()}
-    return Shape("line", written, [straight_through([np.array([x - dx, y - dy]), np.array([x + dx, y + dy])])])
+    return Shape(
+        "line", written, [straight_through([np.array([x - dx, y - dy]), np.array([x + dx, y + dy])])]
+    )
 
 
 def _poly(rng: np.random.Generator, view: tuple[float, float]) -> Shape:
@@ -243,7 +256,9 @@ class Pen:
         to = self._somewhere()
         self._say(letter, *([a, to] if letter == "Q" else [to]))
         self._add(
-            np.stack([self.here, self.here + 2 / 3 * (a - self.here), to + 2 / 3 * (a - to), to])[None], "q", a
+            np.stack([self.here, self.here + 2 / 3 * (a - self.here), to + 2 / 3 * (a - to), to])[None],
+            "q",
+            a,
         )
 
     def turn(self) -> None:
@@ -253,7 +268,9 @@ class Pen:
             rx = 0.0
         tilt = float([0, 30, -400][self.rng.integers(3)])
         large, sweep = (bool(flag) for flag in self.rng.integers(2, size=2))
-        flags = [f" {large:d} {sweep:d} ", f",{large:d},{sweep:d},", f" {large:d}{sweep:d}"][self.rng.integers(3)]
+        flags = [f" {large:d} {sweep:d} ", f",{large:d},{sweep:d},", f" {large:d}{sweep:d}"][
+            self.rng.integers(3)
+        ]
         rx, ry = round(rx, 5), round(ry, 5)
         self._say("A", to, before=f"{rx} {ry} {tilt:g}{flags}")
         self._add(arc(self.here, to, rx, ry, math.radians(tilt), large, sweep), "a")

@@ -139,7 +139,9 @@ def test_each_kind_of_shape(kind, seed):
     paired(document((Part(kind, (), "attributes", False, seed),)))
 
 
-HEAD = 'xmlns="http://www.w3.org/2000/svg" width="200" height="200" fill="none" stroke="black" stroke-width="2"'
+HEAD = (
+    'xmlns="http://www.w3.org/2000/svg" width="200" height="200" fill="none" stroke="black" stroke-width="2"'
+)
 SHOWN = '<path d="M10 100H190M100 10V190"/>'
 
 
