@@ -118,13 +118,13 @@ def grey_pictures(names: list[str]) -> Iterator[tuple[str, str, Grey]]:
         if kind == "clean" and (not names or path.stem in names):
             yield path.stem, "corpus", np.asarray(Image.open(path).convert("L"))
     try:
-        from tests.drawing.svg.ink import rendered
-
         import resvg_py as _  # noqa: F401
+
+        from tests.drawing.svg.ink import rendered
     except ImportError:
         print("no pictures at other widths: pip install resvg_py")
         return
-    for name in AT_WIDTHS if not names else names:
+    for name in names or AT_WIDTHS:
         source = CORPUS / "dev" / f"{name}.svg"
         for width in WIDTHS_PX if source.exists() else ():
             yield name, f"{width} px", rendered(source, width)[0]

@@ -1,7 +1,7 @@
-"""Icons of public packages, unpacked in a folder: read as SVG against their ink, or rendered against the SVG.
+"""Icons of public packages, unpacked in a folder: SVG against its ink, or its rendering against the SVG.
 
-Run as `python -m tests.bench icons FOLDER … [--most N]`; with `--rendered` the stroked ones are rendered at 400
-and 1000 px and compared with what their SVG says. `--most N` takes N of each folder, evenly.
+Run as `python -m tests.bench icons FOLDER … [--most N]`; with `--rendered` the stroked ones are rendered at
+400 and 1000 px and compared with what their SVG says. `--most N` takes N of each folder, evenly.
 """
 
 from __future__ import annotations

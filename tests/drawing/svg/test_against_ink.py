@@ -174,8 +174,8 @@ def test_the_ink_tells_a_line_too_many_a_line_too_few_and_a_line_beside():
     both = np.concatenate([across, across[:, ::-1]])
     assert shares(both * zoom, ink).alike
     assert shares(across * zoom, ink).missed > 0.4
-    assert shares(np.concatenate([both, across + [0, 30]]) * zoom, ink).extra > 0.3
-    assert shares((both + [0, 4]) * zoom, ink).extra > 0.4
+    assert shares(np.concatenate([both, across + np.array([0, 30])]) * zoom, ink).extra > 0.3
+    assert shares((both + np.array([0, 4])) * zoom, ink).extra > 0.4
 
 
 @example(seed=0)
@@ -184,5 +184,5 @@ def test_the_ink_tells_a_line_too_many_a_line_too_few_and_a_line_beside():
 def test_a_pair_with_a_line_moved_is_told_apart(seed):
     case = document((Part("round", (), "attributes", False, seed),))
     (curve, width), *rest = case.curves
-    moved = Document(case.text, [(curve + [3.0, 2.0], width), *rest], case.size_px, True)
+    moved = Document(case.text, [(curve + np.array([3.0, 2.0]), width), *rest], case.size_px, True)
     assert differing(read(case.plain), read(moved.plain))
