@@ -67,7 +67,7 @@ def trace_svg(
         changes=[*changes, *connected.changes],
         pixel_frame=False,
     )
-    findings = []
+    findings = list(strokes.findings)
     for notice in connected.notices:
         x, y = where.points(np.array(notice.at_px))
         place = f"at ({notice.at_px[0]:.1f}, {notice.at_px[1]:.1f}) px, ({x:.1f}, {y:.1f}) mm"
