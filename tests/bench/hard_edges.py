@@ -154,6 +154,9 @@ def twins(names: list[str]) -> Iterator[Twin | str]:
 
 def main(names: list[str] | None = None) -> None:
     """Prints one row a pair and a summary a kind, with the goals beside."""
+    if not CORPUS.exists() and not CASES.exists():
+        print("neither the corpus of drawings nor the cases are here; set WRAPIT_CORPUS and WRAPIT_CASES")
+        return
     print(f"{'':28} {'':16} {'turning':>8} {'Béziers':>8} {'off px':>8}  graph")
     rows: dict[str, list[Twin]] = {}
     refused = 0

