@@ -15,8 +15,8 @@ from wrapit.config import TracingConfig
 from wrapit.drawing.json_file import drawing_json, read_drawing
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.stage import trace
-from wrapit.drawing.svg.document import safe_document
-from wrapit.drawing.svg.limits import MOST_PARTS, MOST_SHAPES
+from wrapit.drawing.svg.reading.outlines import MOST_PARTS
+from wrapit.drawing.svg.reading.scene import MOST_SHAPES, read_page
 from wrapit.errors import DrawingError
 
 STROKE = 'fill="none" stroke="black" stroke-width="2"'
@@ -67,7 +67,7 @@ def test_copies_are_counted_before_they_are_made(tmp_path, levels, copies):
         assert "copies" in message or "deep" in message
     elif made < MOST_SHAPES / 8 and levels < 40:
         (tmp_path / "drawing.svg").write_bytes(data)
-        safe_document(tmp_path / "drawing.svg")
+        assert read_page(tmp_path / "drawing.svg").shapes
 
 
 def test_copies_that_are_few_are_drawn(tmp_path):
@@ -75,9 +75,12 @@ def test_copies_that_are_few_are_drawn(tmp_path):
 
 
 @pytest.mark.parametrize("length", [1, 2, 7, 3000])
-def test_copies_in_a_circle_are_refused(tmp_path, length):
+def test_copies_in_a_circle_are_left_out_with_a_warning(tmp_path, length):
     ring = "".join(f'<g id="g{k}"><use href="#g{(k + 1) % length}"/></g>' for k in range(length))
-    assert "copy of itself" in refusal(tmp_path, svg(CROSS + ring))
+    (tmp_path / "drawing.svg").write_bytes(svg(CROSS + ring))
+    drawing, findings = trace(tmp_path / "drawing.svg", TracingConfig(), None)
+    assert len(drawing.segments) == 4
+    assert [finding.code for finding in findings] == ["endless-copy"]
 
 
 @pytest.mark.parametrize(
@@ -103,8 +106,8 @@ def test_copies_in_a_circle_are_refused(tmp_path, length):
     ],
     ids=lambda body: body[:24] + body[-12:],
 )
-def test_texts_that_would_take_minutes_are_refused(tmp_path, body):
-    refusal(tmp_path, svg(body))
+def test_texts_that_took_minutes_are_read_or_refused_at_once(tmp_path, body):
+    check(tmp_path, svg(body))
 
 
 @pytest.mark.parametrize(
@@ -137,18 +140,54 @@ def test_too_many_parts_are_refused_with_their_number(tmp_path, body):
         (svg(CROSS) + b"\0", "not valid XML"),
         (b'<?xml version="1.0" encoding="foo"?>' + svg(CROSS), "encoding"),
         (b'<?xml version="1.0" encoding="shift_jis"?>' + svg(CROSS), "encoding"),
-        (b'<?xml-stylesheet href="a.css"?>' + svg(CROSS), "another file"),
-        (
-            svg(CROSS + f'\n<path id="wing" {STROKE} d="M 10 10 L"/>'),
-            "drawing.svg:2: the data of path 'wing'",
-        ),
-        (svg(f'<g transform="matrix(1 2)">{CROSS}</g>'), "missing"),
+        (svg(f'\n<path id="wing" {STROKE} d="M 10 10 L"/>'), "drawing.svg:2: the data of path 'wing'"),
         (svg('<image xlink:href=" http://example.com/a.png"/>'), "another file"),
-        (svg(CROSS + '<path fill="url( http://example.com)" d=""/>'), "another file"),
+        (svg('<image xlink:href="data:image/png;base64,AA"/>'), "a picture and no lines"),
+        (svg("<text>Hello</text>"), "text and no lines"),
+        (b"<!-- saved --><html><body><br><svg/></body></html>", "web page"),
     ],
 )
 def test_what_is_no_svg_is_refused_in_words(tmp_path, data, reason):
     assert reason in refusal(tmp_path, data)
+
+
+@pytest.mark.parametrize(
+    ("head", "body", "codes"),
+    [
+        ('<?xml-stylesheet href="a.css"?>', "", ["other-file"]),
+        ("", f'<path id="wing" {STROKE} d="M 10 10 L"/>', ["path-data"]),
+        ("", '<g transform="matrix(1 2)"/>', ["transform"]),
+        ("", '<image href="a.png"/><use href="b.svg#c"/>', ["other-file"]),
+        ("", '<image href="data:image/png;base64,AA"/>', ["picture-left-out"]),
+        ("", "<text>a</text><text> </text><g><text><tspan>b</tspan></text></g>", ["text-left-out"]),
+        ("", '<path stroke="red" stroke-linecap="round" d="M30 80zM60 80h0"/>', ["dots"]),
+        ("", '<path fill="url( http://example.com)" d=""/>', []),
+        ("", '<style>@import "a.css"; @font-face{src:url(b.woff)}</style>', []),
+        ("", "<inkscape:page a:b='1'/><title>&nbsp;&copy;&unknown;</title>", []),
+        ('<!DOCTYPE svg [<!ENTITY ns "http://ns.adobe.com/"><!ENTITY c "black">]>', '<g id="&ns;"/>', []),
+    ],
+)
+def test_what_is_harmless_is_read_and_what_is_left_out_is_named(tmp_path, head, body, codes):
+    (tmp_path / "drawing.svg").write_bytes(head.encode() + svg(CROSS + body))
+    drawing, findings = trace(tmp_path / "drawing.svg", TracingConfig(), None)
+    assert len(drawing.segments) == 4
+    assert [finding.code for finding in findings] == codes
+    assert all(finding.remedy for finding in findings)
+
+
+@pytest.mark.parametrize(
+    "entities",
+    [
+        "".join(f'<!ENTITY e{k} "{10 * f"&#38;e{k - 1};"}">' for k in range(1, 20)),
+        f'<!ENTITY big "{"x" * 100_000}">',
+        '<!ENTITY % a "b">',
+        f'<!ATTLIST path id CDATA "{"x" * 200_000}">',
+    ],
+    ids=["nested", "long", "parameter", "default"],
+)
+def test_entities_that_could_grow_are_refused(tmp_path, entities):
+    body = CROSS * 200 + f"<desc>{'&big;' * 1000}</desc>"
+    assert "entities" in refusal(tmp_path, f"<!DOCTYPE svg [{entities}]>".encode() + svg(body))
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "iso-8859-1", "windows-1252"])

@@ -1,4 +1,4 @@
-"""What a maker should know about an SVG file: what in it is no line, and what to do in the program that made it."""
+"""What a maker should know about an SVG file: what in it is no line, and what to do about it."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _KINDS: dict[Missing, tuple[str, str, str, str]] = {
     "path-data": (
         "path-data",
         "the data of {text} is not complete or not in order; it is drawn up to there, as in browsers",
-        "the data of {} paths is not complete or not in order ({text}); each is drawn up to there, as in browsers",
+        "the data of {} paths is not complete or not in order ({text}); each is drawn up to there",
         "correct it, or delete the path",
     ),
     "transform": (
@@ -85,7 +85,9 @@ def remarks(page: Page) -> tuple[Finding, ...]:
         message = "1 dot is left out" if len(dots) == 1 else f"{len(dots)} dots are left out"
         place = f"at {places}{', …' if len(dots) > _NAMED else ''} px"
         found.append(
-            Finding("warning", "dots", place, f"{message}, as a wire needs a length", "draw small circles instead")
+            Finding(
+                "warning", "dots", place, f"{message}, as a wire needs a length", "draw small circles instead"
+            )
         )
     return tuple(found)
 
@@ -106,14 +108,17 @@ def _remark(kind: Missing, omissions: list[Omission]) -> Finding:
     )
 
 
-def refusal(page: Page, filled: int, path: Path) -> DrawingError:
+def refusal(page: Page, filled: int, clipped: bool, path: Path) -> DrawingError:
     """Why a file has no lines, as far as it tells: what is left out, or what isn't stroked."""
     first = {omission.what: omission for omission in reversed(page.omissions)}
     stroked = sum(shape.stroke is not None for shape in page.shapes)
-    for kind in ("path-data", "other-file"):
-        if found := first.get(kind):  # type: ignore[call-overload]
-            remark = _remark(kind, [found])  # type: ignore[arg-type]
+    for found in (first.get("path-data"), first.get("other-file")):
+        if found:
+            remark = _remark(found.what, [found])
             return DrawingError(remark.message, f"{path}:{found.line}", remark.remedy)
+    if clipped:
+        problem = "all lines lie outside of the page, or are clipped away"
+        return DrawingError(problem, str(path), "move them into the page, or enlarge the page to the drawing")
     if stroked:
         problem = f"the drawing's lines ({stroked} in all) have no length"
         return DrawingError(problem, str(path), "draw at least one line that is longer than a dot")
@@ -125,14 +130,16 @@ def refusal(page: Page, filled: int, path: Path) -> DrawingError:
             "draw centre lines with a stroke (in Canva or Figma: export strokes, not outlines), "
             "or set tracing.filled to outline",
         )
-    if found := first.get("picture"):
-        problem = "the SVG file holds a picture and no lines"
-        return DrawingError(problem, f"{path}:{found.line}", "save that picture as PNG and give that")
-    if found := first.get("text") or first.get("foreign"):
-        problem = "the SVG file holds text and no lines"
-        return DrawingError(problem, f"{path}:{found.line}", "draw the letters as strokes")
+    for found in (first.get("picture"), first.get("text"), first.get("foreign")):
+        if found:
+            thing = "a picture" if found.what == "picture" else "text"
+            remedy = (
+                "save that picture as PNG and give that" if found.what == "picture" else _KINDS["text"][3]
+            )
+            return DrawingError(f"the SVG file holds {thing} and no lines", f"{path}:{found.line}", remedy)
     return DrawingError(
         "the drawing has no stroked lines that are shown",
         str(path),
-        "give the lines a stroke (in Illustrator: untick Preserve Illustrator Editing Capabilities and save as SVG 1.1)",
+        "give the lines a stroke (in Illustrator: untick Preserve Illustrator Editing Capabilities "
+        "and save as SVG 1.1)",
     )

@@ -83,6 +83,18 @@ def trace_svg(
                 "edge; each is taken once",
             )
         )
+    if strokes.clipped:
+        longest, _ = max(strokes.clipped, key=lambda part: part[1])
+        total = where.scale * sum(length for _, length in strokes.clipped)
+        findings.append(
+            Finding(
+                "warning",
+                "clipped",
+                f"at ({longest[0]:.1f}, {longest[1]:.1f}) px",
+                f"{total:.1f} mm of lines lie outside of the page, or are clipped away, and are left out",
+                "enlarge the page to the drawing, or release the clip",
+            )
+        )
     if strokes.filled:
         findings.append(
             Finding(

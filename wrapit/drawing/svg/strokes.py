@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
+from wrapit.drawing.svg.clipping import Hidden, Seen
 from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading.model import Page, Shape
 from wrapit.drawing.svg.reading.scene import read_page
@@ -18,19 +19,23 @@ from wrapit.geometry import FloatArray
 
 # CSS and SVG 2: a pixel is a 96th of an inch.
 _MM_PER_PX = 25.4 / 96
-# Paper is nearly white (230 of 255 in each colour: cream and pale grey are), or is what lies first and fills nine
-# tenths of the page; outlines of a drawing, however large, fill a fraction of their box.
+# Paper is nearly white (230 of 255 in each colour: cream and pale grey are), or is what lies first and fills
+# nine tenths of the page; outlines of a drawing, however large, fill a fraction of their box.
 _WHITE, _PAGE_SHARE = 230 / 255, 0.9
 
 
 @dataclass(frozen=True, eq=False)
 class Strokes:
-    """The curves of an SVG file in its own pixels (96 per inch, y down), their usual width, and all it paints."""
+    """The curves of an SVG file in its own pixels (96 per inch, y down), and their usual width.
+
+    `clipped` are the stretches of lines that are not seen; `page` is all that the file paints.
+    """
 
     curves: list[Curve]
     width_px: float | None
     filled: int
     mm_per_px: float
+    clipped: list[Hidden]
     page: Page
     findings: tuple[Finding, ...]
 
@@ -44,19 +49,21 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
     curves: list[Curve] = []
     widths: list[float] = []
     filled: list[Shape] = []
+    seen = Seen(page)
     for index, shape in enumerate(page.shapes):
         if shape.stroke:
-            curves += shape.curves
-            widths += [shape.stroke_width] * len(shape.curves)
+            lines = seen.of(shape)
+            curves += lines
+            widths += [shape.stroke_width] * len(lines)
         elif shape.fill and not _is_ground(shape, first=index == 0, size=page.size):
             filled.append(shape)
             if tracing.filled == "outline":
                 curves += [_closed(curve) for curve in shape.curves]
     if not curves:
-        raise refusal(page, len(filled), path)
+        raise refusal(page, len(filled), bool(seen.hidden), path)
     usual = float(np.median(widths)) if widths else None
     width = usual if usual and math.isfinite(usual) and usual > 0 else None
-    return Strokes(curves, width, len(filled), _MM_PER_PX, page, remarks(page))
+    return Strokes(curves, width, len(filled), _MM_PER_PX, seen.hidden, page, remarks(page))
 
 
 def _is_ground(shape: Shape, first: bool, size: tuple[float, float]) -> bool:

@@ -1,4 +1,4 @@
-"""The cascade (CSS Cascade 4): attributes, then rules of style sheets by their selectors, then the style attribute.
+"""The cascade (CSS Cascade 4): attributes, rules of style sheets by their selectors, the style attribute.
 
 tinycss2 splits the text, cssselect2 matches selectors. The work of matching is bounded before it begins: a
 selector with blanks tries every choice of that many ancestors.
@@ -17,8 +17,8 @@ from typing import Any
 from wrapit.drawing.svg.reading.element import Element
 from wrapit.errors import DrawingError
 
-# Elements that selectors are tried on, times the ways in which each can be tried: some ten seconds. Style sheets
-# of Illustrator and Inkscape (thousands of elements, hundreds of classes) come to a few hundred thousand.
+# Elements that selectors are tried on, times the ways in which each can be tried: some ten seconds. Style
+# sheets of Illustrator (thousands of elements, hundreds of classes) come to a few hundred thousand.
 _MOST_TRIED = 20_000_000
 # Brackets within brackets; nobody writes more than four, and what splits them recurses.
 _MOST_NESTED = 50
@@ -78,7 +78,9 @@ def _of_style(text: str, where: str) -> tuple[Declaration, ...]:
     import tinycss2
 
     refuse_nested(text, where)
-    return tuple(_declarations(tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True)))
+    return tuple(
+        _declarations(tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True))
+    )
 
 
 def _declarations(nodes: Iterable[Any]) -> list[Declaration]:
@@ -122,9 +124,7 @@ class _Size:
 
 def _matched(root: Element, path: Path) -> dict[int, list[_Rule]]:
     """The rules for each element, the weakest first; by the identity of the element."""
-    sheets = [
-        element for element in root.iter() if isinstance(element, Element) and element.name == "style"
-    ]
+    sheets = [element for element in root.iter() if isinstance(element, Element) and element.name == "style"]
     if not sheets:
         return {}
     from cssselect2 import ElementWrapper, Matcher
@@ -188,11 +188,15 @@ def _rules_in(text: str) -> list[Any]:
         node = waiting.pop()
         if node.type == "qualified-rule":
             rules.append(node)
-        elif node.type == "at-rule" and node.content and node.lower_at_keyword in _GROUPS:
-            if node.lower_at_keyword != "media" or _for_screens(_serialised(node.prelude)):
-                inner = tinycss2.parse_rule_list(node.content, skip_comments=True, skip_whitespace=True)
-                waiting += inner[::-1]
+        elif node.type == "at-rule" and node.content and _holds(node):
+            inner = tinycss2.parse_rule_list(node.content, skip_comments=True, skip_whitespace=True)
+            waiting += inner[::-1]
     return rules
+
+
+def _holds(rule: Any) -> bool:
+    keyword = rule.lower_at_keyword
+    return keyword in _GROUPS and (keyword != "media" or _for_screens(_serialised(rule.prelude)))
 
 
 def _of_rule(rule: Any) -> tuple[Declaration, ...]:

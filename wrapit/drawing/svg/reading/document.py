@@ -1,7 +1,7 @@
 """The XML of an SVG file: read safely, whatever encoding it declares, and without loading anything.
 
-Nothing in it can grow: entities are small, may not name others, and the sum of what they could insert is bounded
-before the first is inserted. What HTML parsers forgive is forgiven (names of characters such as `&nbsp;`,
+Nothing in it can grow: entities may not name others, and the sum of what they could insert is bounded before
+the first is inserted. What HTML parsers forgive is forgiven (names of characters such as `&nbsp;`,
 prefixes that nobody declared).
 """
 
@@ -20,8 +20,8 @@ _LARGEST_BYTES = 50_000_000
 _MOST_ELEMENTS = 100_000
 # Programs nest groups a dozen deep; everything that follows the tree recurses for each level.
 DEEPEST = 150
-# What entities and default values could insert, in characters, if each `&` or `<` of the file did so. Those of
-# Illustrator (a dozen addresses in a head of twenty lines) come to some ten thousand.
+# What entities and default values could insert, in characters, if each `&` or `<` of the file did so. Those
+# of Illustrator (a dozen addresses in a head of twenty lines) come to some ten thousand.
 _MOST_INSERTED = 20_000_000
 _PLAIN = "save it as plain SVG"
 _PICTURE = "save the picture itself, as a file of its own"

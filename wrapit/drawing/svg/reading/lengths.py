@@ -16,7 +16,16 @@ _LENGTH = re.compile(rf"({NUMBER})(%|[A-Za-z]*)")
 _SEVERAL = re.compile(rf"\s*,?\s*({NUMBER})(%|[A-Za-z]*)")
 
 # CSS Values 4: 96 px to the inch, 16 px to the usual font.
-_PX = {"": 1.0, "px": 1.0, "in": 96.0, "pt": 4 / 3, "pc": 16.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q": 24 / 25.4}
+_PX = {
+    "": 1.0,
+    "px": 1.0,
+    "in": 96.0,
+    "pt": 4 / 3,
+    "pc": 16.0,
+    "cm": 96 / 2.54,
+    "mm": 96 / 25.4,
+    "q": 24 / 25.4,
+}
 FONT_PX = 16.0
 # CSS Values 4 where a font doesn't tell: half an em for x and for 0. A line of text is 1.2 em in browsers.
 _EX, _LINE = 0.5, 1.2
@@ -69,7 +78,7 @@ def length(text: str | None, measure: Measure, side: Side) -> float | None:
 
 
 def absolute_px(text: str | None) -> float | None:
-    """A length in px that depends on nothing, or None: percentages and units of fonts are no size of a page."""
+    """A length in px that depends on nothing, or None: percentages and `em` are no size of a page."""
     found = _LENGTH.fullmatch(text.strip()) if text else None
     factor = _PX.get(found[2].lower()) if found else None
     return float(found[1]) * factor if found and factor else None

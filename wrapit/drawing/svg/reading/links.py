@@ -31,7 +31,7 @@ class Links:
         return id(use) in self._endless
 
     def paints(self, link: str, flat: bool) -> bool:
-        """Whether a gradient or pattern paints anything; on a `flat` shape those do that don't need its box."""
+        """Whether a gradient or pattern paints anything; on a `flat` shape only if it needs no box."""
         units, stops = None, False
         element = self.target(link)
         for _ in range(_LONGEST_CHAIN):
@@ -39,12 +39,18 @@ class Links:
                 break
             kind = "patternUnits" if element.name == "pattern" else "gradientUnits"
             units = units or element.get(kind)
-            stops = stops or any(child.name == "stop" or element.name == "pattern" for child in element.inside)
+            stops = stops or any(
+                child.name == "stop" or element.name == "pattern" for child in element.inside
+            )
             element = self.target(element.link)
         return stops and not (flat and units != "userSpaceOnUse")
 
     def _find_endless(self) -> set[int]:
-        uses = [element for element in self._elements if element.name == "use" and self.target(element.link)]
+        uses = [
+            element
+            for element in self._elements
+            if element.name == "use" and self.target(element.link) is not None
+        ]
         if not uses:
             return set()
         from scipy.sparse import coo_array

@@ -83,7 +83,11 @@ def transform(text: str, measure: Measure) -> Matrix | None:
 def origin(text: str, measure: Measure) -> tuple[float, float] | None:
     """`transform-origin` within a box of the measure's width and height; None where it is not in order."""
     words = text.replace(",", " ").split()[:2]
-    if words and words[0] in ("top", "bottom") and (len(words) == 1 or words[1] in ("left", "center", "right")):
+    if (
+        words
+        and words[0] in ("top", "bottom")
+        and (len(words) == 1 or words[1] in ("left", "center", "right"))
+    ):
         words = [words[1] if len(words) > 1 else "center", words[0]]
     elif len(words) == 2 and words[1] in ("left", "right"):
         words.reverse()

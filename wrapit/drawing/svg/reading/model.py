@@ -15,13 +15,21 @@ from wrapit.geometry import FloatArray
 
 # What of a file is not drawn as a browser would draw it.
 Missing = Literal[
-    "text", "picture", "foreign", "other-file", "style-sheet", "recursion", "markers", "path-data", "transform"
+    "text",
+    "picture",
+    "foreign",
+    "other-file",
+    "style-sheet",
+    "recursion",
+    "markers",
+    "path-data",
+    "transform",
 ]
 
 
 @dataclass(frozen=True)
 class Paint:
-    """Paint with its colour (None for a gradient or a pattern); opacity is that of all groups around, from 0 to 1."""
+    """Paint: its colour (None for a gradient or a pattern), and its opacity (0 to 1) with all groups."""
 
     colour: Colour | None
     opacity: float
@@ -38,7 +46,7 @@ class Clip:
 class Shape:
     """One thing that is painted: first its fill, then its stroke. All lengths in px, after all transforms.
 
-    `dots` (n, 2) are subpaths without length. `clips` hold one within the other: a point is seen that is in all.
+    `dots` (n, 2) are subpaths without length. A point is seen that lies in all `clips`.
     """
 
     tag: str
@@ -80,10 +88,14 @@ class Omission:
 
 @dataclass(frozen=True, eq=False)
 class Page:
-    """All that a file paints, its size in px, and what is left out."""
+    """All that a file paints, its size in px, and what is left out.
+
+    `frame` is the edge of the page; None where the file says nothing of it, so that nothing lies outside.
+    """
 
     shapes: tuple[Shape, ...]
     size: tuple[float, float]
+    frame: Clip | None
     omissions: tuple[Omission, ...] = field(default=())
 
 
@@ -106,8 +118,8 @@ def _extremes(cubics: FloatArray) -> FloatArray:
     found = [a, d]
     with np.errstate(all="ignore"):
         root = np.sqrt(np.maximum(first**2 - 4 * second * zeroth, 0.0))
-        for t in ((-first + root) / (2 * second), (-first - root) / (2 * second), -zeroth / first):
-            t = np.where(np.isfinite(t), np.clip(t, 0.0, 1.0), 0.0)
+        for turn in ((-first + root) / (2 * second), (-first - root) / (2 * second), -zeroth / first):
+            t = np.where(np.isfinite(turn), np.clip(turn, 0.0, 1.0), 0.0)
             s = 1 - t
             found.append(s**3 * a + 3 * s * s * t * b + 3 * s * t * t * c + t**3 * d)
     return np.concatenate(found)

@@ -90,7 +90,9 @@ class Outliner:
     def place(self, element: Element, matrix: Matrix, width: float, height: float) -> Shape:
         """The rectangle of a viewport."""
         sizes = {"width": width, "height": height}
-        curves, dots = self._placed(basic_shapes.rectangle(lambda name, _: sizes.get(name)), matrix, element, True)
+        curves, dots = self._placed(
+            basic_shapes.rectangle(lambda name, _: sizes.get(name)), matrix, element, True
+        )
         return Shape(element.name, element.get("id", ""), element.line, curves, dots, None, None, 0.0)
 
     def in_context(self, paint: PaintValue, style: Style) -> PaintValue:
@@ -134,7 +136,7 @@ class Outliner:
                 self.omissions.append(Omission("path-data", element.line, near))
         if self._parts > MOST_PARTS:
             raise DrawingError(
-                f"the lines have more straight or curved parts than can be worked on (the limit is {MOST_PARTS})",
+                f"the lines have too many straight or curved parts (the limit is {MOST_PARTS})",
                 str(self._path),
                 "simplify the paths, in Inkscape with Path > Simplify",
             )

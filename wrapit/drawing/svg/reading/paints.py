@@ -30,6 +30,13 @@ class PaintValue:
 NOTHING = PaintValue("none")
 BLACK = PaintValue("colour", (0.0, 0.0, 0.0, 1.0))
 
+_WORDS = {
+    "none": NOTHING,
+    "currentcolor": PaintValue("current"),
+    "context-fill": PaintValue("context-fill"),
+    "context-stroke": PaintValue("context-stroke"),
+}
+
 
 @lru_cache(_REMEMBERED)
 def colour(text: str) -> Colour | None:
@@ -53,20 +60,16 @@ def paint_value(text: str) -> PaintValue | None:
     """What `fill` or `stroke` says; None where it is not in order."""
     text = text.strip()
     word = text.lower()
-    if word == "none":
-        return NOTHING
-    if word == "currentcolor":
-        return PaintValue("current")
-    if word == "context-fill":
-        return PaintValue("context-fill")
-    if word == "context-stroke":
-        return PaintValue("context-stroke")
+    if word in _WORDS:
+        return _WORDS[word]
     if word.startswith("url("):
         found = _SERVER.fullmatch(text)
         if not found:
             return None
         server = found[1] or found[2] or found[3] or ""
-        return PaintValue("server", server=server, fallback=paint_value(found[4]) if found[4].strip() else None)
+        return PaintValue(
+            "server", server=server, fallback=paint_value(found[4]) if found[4].strip() else None
+        )
     # A colour for print may follow the colour for screens.
     known = colour(text) or (colour(text.partition("icc-color")[0].strip()) if "icc-color" in text else None)
     return PaintValue("colour", known) if known else None

@@ -100,7 +100,9 @@ class _Path:
         self.begun = True
         pen, kind = self._pen, command.lower()
         x, y = pen.at if command.islower() else (0.0, 0.0)
-        smooth = self._handle if self._handle and self._last in {"s": "cs", "t": "qt"}.get(kind, "") else pen.at
+        smooth = (
+            self._handle if self._handle and self._last in {"s": "cs", "t": "qt"}.get(kind, "") else pen.at
+        )
         first = 2 * pen.at[0] - smooth[0], 2 * pen.at[1] - smooth[1]
         points = [(x + p, y + q) for p, q in zip(values[::2], values[1::2], strict=False)]
         self._handle = None

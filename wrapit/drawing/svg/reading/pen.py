@@ -26,7 +26,7 @@ class Subpath:
 
 @dataclass
 class Pen:
-    """Where it is, where its subpath began, and what it has drawn; its names are those of the path commands."""
+    """Where it is, where its subpath began, and how many parts it has drawn."""
 
     at: Point = (0.0, 0.0)
     start: Point = (0.0, 0.0)
@@ -49,7 +49,9 @@ class Pen:
 
     def quadratic(self, handle: Point, to: Point) -> None:
         """A quadratic Bézier, as the cubic that it is."""
-        first, last = ((p[0] + 2 / 3 * (handle[0] - p[0]), p[1] + 2 / 3 * (handle[1] - p[1])) for p in (self.at, to))
+        first, last = (
+            (p[0] + 2 / 3 * (handle[0] - p[0]), p[1] + 2 / 3 * (handle[1] - p[1])) for p in (self.at, to)
+        )
         self.cubic(first, last, to)
 
     def cubic(self, first: Point, last: Point, to: Point) -> None:

@@ -1,7 +1,7 @@
 """Walks through an SVG file as a browser does, and gives what it paints: groups, copies, viewports, clips.
 
-Every shape becomes cubics in its own units first; one matrix then takes them to px. The work is bounded while it is
-done: copies, parts and depth are counted as they come.
+Every shape becomes cubics in its own units first; one matrix then takes them to px. The work is bounded while
+it is done: copies, parts and depth are counted as they come.
 """
 
 from __future__ import annotations
@@ -75,14 +75,20 @@ class _Scene:
 
     def page(self, omissions: list[Omission]) -> Page:
         declared = self._cascade.declared(self._root)
-        width, height = page_size(declared.get("width"), declared.get("height"), view_box(self._root.get("viewBox")))
+        width, height = page_size(
+            declared.get("width"), declared.get("height"), view_box(self._root.get("viewBox"))
+        )
         measure = Measure(width=width, height=height, page=(width, height))
         style = derived(Style(), declared, measure)
         measure = replace(measure, root_font=style.font)
         shapes = self._element(self._root, _Frame(IDENTITY, Style(), measure), (width, height))
+        frame = None
+        if self._root.get("viewBox") or (declared.get("width") and declared.get("height")):
+            frame = Clip((self._outliner.place(self._root, IDENTITY, width, height),))
         return Page(
             tuple(shape for shape in shapes if shape.fill or shape.stroke),
             (width, height),
+            frame,
             (*omissions, *self._omissions, *self._outliner.omissions),
         )
 
@@ -112,7 +118,7 @@ class _Scene:
         )
         if frame.opacity <= 0:
             return []
-        own, about_box = self._transform(element, declared, frame)
+        own, about_box = self._transform(element, declared)
         if not about_box:
             frame = replace(frame, matrix=times(around.matrix, own(0.0, 0.0, frame.measure)))
         if not determinant(frame.matrix):
@@ -122,12 +128,19 @@ class _Scene:
         return _turned(shapes, frame, own) if about_box else shapes
 
     def _content(
-        self, element: Element, declared: dict[str, str], frame: _Frame, size: tuple[float | None, float | None] | None
+        self,
+        element: Element,
+        declared: dict[str, str],
+        frame: _Frame,
+        size: tuple[float | None, float | None] | None,
     ) -> list[Shape]:
         name = element.name
         if name in OUTLINED:
-            return [self._outliner.shape(element, declared, frame.style, frame.matrix, frame.measure, frame.opacity,
-                                         frame.masked)]
+            return [
+                self._outliner.shape(
+                    element, declared, frame.style, frame.matrix, frame.measure, frame.opacity, frame.masked
+                )
+            ]
         if name in _GROUPS:
             return self._children(conditions.chosen(element) if name == "switch" else element.inside, frame)
         if name == "use":
@@ -136,7 +149,11 @@ class _Scene:
             return self._viewport(element, declared, frame, size)
         if name == "image" and element.link and not element.link.startswith("data:"):
             self._omissions.append(Omission("other-file", element.line, element.link[:60]))
-        elif name in _LEFT_OUT and frame.style.visible and (name != "text" or "".join(element.itertext()).strip()):
+        elif (
+            name in _LEFT_OUT
+            and frame.style.visible
+            and (name != "text" or "".join(element.itertext()).strip())
+        ):
             self._omissions.append(Omission(_LEFT_OUT[name], element.line))
         return []
 
@@ -157,22 +174,37 @@ class _Scene:
         get = _lengths(declared, frame.measure)
         place = moved_by(get("x", "width") or 0.0, get("y", "height") or 0.0)
         style = frame.style
-        context = (self._outliner.in_context(style.fill, style), self._outliner.in_context(style.stroke, style))
+        context = (
+            self._outliner.in_context(style.fill, style),
+            self._outliner.in_context(style.stroke, style),
+        )
         frame = replace(frame, matrix=times(frame.matrix, place), style=replace(style, context=context))
         if target.name in ("svg", "symbol"):
             return self._element(target, frame, (get("width", "width"), get("height", "height")))
         return self._element(target, frame) if target.name in _COPIED else []
 
     def _viewport(
-        self, element: Element, declared: dict[str, str], frame: _Frame, size: tuple[float | None, float | None] | None
+        self,
+        element: Element,
+        declared: dict[str, str],
+        frame: _Frame,
+        size: tuple[float | None, float | None] | None,
     ) -> list[Shape]:
         """What is in an `svg` or a `symbol`: fitted into its place, and clipped to it."""
         get, measure = _lengths(declared, frame.measure), frame.measure
         outermost = element is self._root
         asked = size or (None, None)
         own = (get("width", "width"), get("height", "height")) if element.name == "svg" else (None, None)
-        width = measure.width if asked[0] is None and own[0] is None else (own[0] if asked[0] is None else asked[0])
-        height = measure.height if asked[1] is None and own[1] is None else (own[1] if asked[1] is None else asked[1])
+        width = (
+            measure.width
+            if asked[0] is None and own[0] is None
+            else (own[0] if asked[0] is None else asked[0])
+        )
+        height = (
+            measure.height
+            if asked[1] is None and own[1] is None
+            else (own[1] if asked[1] is None else asked[1])
+        )
         if width is None or height is None or width <= 0 or height <= 0:
             return []
         matrix = frame.matrix
@@ -194,9 +226,9 @@ class _Scene:
         return [replace(shape, clips=(*shape.clips, clip)) for shape in shapes]
 
     def _transform(
-        self, element: Element, declared: dict[str, str], frame: _Frame
+        self, element: Element, declared: dict[str, str]
     ) -> tuple[Callable[[float, float, Measure], Matrix], bool]:
-        """Gives the matrix about a box by its corner and a measure of its size, and whether it is the element's own."""
+        """The matrix about a box, by its corner and a measure of its size; whether it is the own box."""
         parts = [
             f"{name}({declared[name].strip() if name == 'rotate' else ','.join(declared[name].split())})"
             for name in ("translate", "rotate", "scale")
@@ -208,8 +240,6 @@ class _Scene:
             self._omissions.append(Omission("transform", element.line, element.attrib["transform"][:40]))
         about = declared.get("transform-origin", "0 0")
         own_box = declared.get("transform-box", "").strip().lower() in _OWN_BOXES
-        if own_box and "transform-origin" not in declared:
-            about = "0 0"
 
         def matrix(x: float, y: float, measure: Measure) -> Matrix:
             found = transform(text, measure)
@@ -243,7 +273,7 @@ class _Scene:
         measure = replace(frame.measure, font=frame.style.font)
         style = derived(Style(), declared, measure)
         inner = _Frame(matrix, style, measure, depth=frame.depth + 1)
-        own, _ = self._transform(element, declared, inner)
+        own, _ = self._transform(element, declared)
         inner = replace(inner, matrix=times(matrix, own(0.0, 0.0, measure)))
         drawn = self._children([e for e in element.inside if e.name in (*OUTLINED, "use")], inner)
         drawn = [replace(shape, fill_rule=shape.clip_rule) for shape in drawn if shape.shown]
@@ -270,7 +300,9 @@ class _Scene:
             )
 
 
-def _turned(shapes: list[Shape], frame: _Frame, own: Callable[[float, float, Measure], Matrix]) -> list[Shape]:
+def _turned(
+    shapes: list[Shape], frame: _Frame, own: Callable[[float, float, Measure], Matrix]
+) -> list[Shape]:
     """Shapes under a transform about their own box."""
     found, back = _box_within(shapes, frame.matrix), inverse(frame.matrix)
     if found is None or back is None:

@@ -1,4 +1,4 @@
-"""The style of an element: what its declarations say, what it inherits, and in which units (SVG 2, chapters 6 and 13)."""
+"""The style of an element: what its declarations say, and what it inherits (SVG 2, chapters 6 and 13)."""
 
 from __future__ import annotations
 
@@ -142,8 +142,8 @@ def _word(text: str, _: Measure) -> str:
 
 def _dashed(text: str, _: Measure) -> bool:
     """Whether there are gaps: all dashes zero, or one negative, draw a whole line."""
-    found = numbers(text)
-    return bool(found) and all(value >= 0 for value, _ in found) and any(value > 0 for value, _ in found[1::2] or found)
+    found = [value for value, _ in numbers(text) or ()]
+    return min(found, default=0.0) >= 0 and any(gap > 0 for gap in found[1::2] or found)
 
 
 def _visible(text: str, _: Measure) -> bool:

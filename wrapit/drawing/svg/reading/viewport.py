@@ -21,7 +21,7 @@ def view_box(text: str | None) -> Box | None:
 
 
 def fitted(box: Box, width: float, height: float, ratio: str | None) -> Matrix | None:
-    """The matrix from a `viewBox` to a place of a size, by `preserveAspectRatio`; None where either is empty."""
+    """The matrix from a `viewBox` to a place, by `preserveAspectRatio`; None where either is empty."""
     x, y, across, down = box
     if not (across > 0 and down > 0 and width > 0 and height > 0):
         return None
@@ -41,9 +41,7 @@ def fitted(box: Box, width: float, height: float, ratio: str | None) -> Matrix |
 
 def page_size(width: str | None, height: str | None, box: Box | None) -> tuple[float, float]:
     """Width and height of the page in px; what is missing, `auto`, or relative comes from the `viewBox`."""
-    wide, high = (
-        size if size and size > 0 else None for size in (absolute_px(width), absolute_px(height))
-    )
+    wide, high = (size if size and size > 0 else None for size in (absolute_px(width), absolute_px(height)))
     if box is not None and box[2] > 0 and box[3] > 0:
         if wide is None and high is None:
             return box[2], box[3]
