@@ -47,7 +47,7 @@ def _jpeg(grey: Grey, path: Path) -> Path:
     return path.with_suffix(".jpg")
 
 
-# Eight bits of two greys give the same drawing as one bit, in every drawing of the corpus: one of them will do.
+# Eight bits of two greys give the same drawing as one bit, in the whole corpus: one of them will do.
 WRITERS: dict[str, Callable[[Grey, Path], Path]] = {"1-bit": _one_bit, "jpeg": _jpeg}
 
 
