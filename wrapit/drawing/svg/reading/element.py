@@ -1,11 +1,20 @@
-"""An element of an SVG file."""
+"""An element of an SVG file, and whether it is meant for this reader (SVG 2, 5.8)."""
 
 from __future__ import annotations
 
 from xml.etree.ElementTree import Element as XmlElement
 
+# The names of the languages, as their specifications give them.
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
+
+# What is drawn where a file has several languages.
+_LANGUAGE = "en"
+# Elements that nothing is drawn for are no choice of a `switch`.
+_DRAWN = {
+    "a", "circle", "ellipse", "foreignObject", "g", "image", "line", "path", "polygon", "polyline", "rect",
+    "svg", "switch", "text", "use",
+}  # fmt: skip
 
 
 class Element(XmlElement):
@@ -29,3 +38,21 @@ class Element(XmlElement):
     def inside(self) -> list[Element]:
         """The elements in it."""
         return [child for child in self if isinstance(child, Element)]
+
+
+def met(element: Element) -> bool:
+    """Whether an element's conditions hold."""
+    if element.get("requiredExtensions", "").strip():
+        return False
+    languages = element.get("systemLanguage")
+    return languages is None or any(
+        language.strip().lower().partition("-")[0] == _LANGUAGE for language in languages.split(",")
+    )
+
+
+def chosen(switch: Element) -> list[Element]:
+    """The first child whose conditions hold, if any."""
+    for child in switch.inside:
+        if child.name in _DRAWN and met(child):
+            return [child]
+    return []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -113,3 +114,8 @@ def numbers(text: str) -> list[tuple[float, str]] | None:
         found.append((float(match[1]), match[2]))
         at = match.end()
     return found if not text[at:].strip() else None
+
+
+def lengths_of(declared: dict[str, str], measure: Measure) -> Callable[[str, Side], float | None]:
+    """Gives lengths of properties by their names."""
+    return lambda name, side: length(declared.get(name), measure, side)

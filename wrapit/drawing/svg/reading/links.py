@@ -6,6 +6,7 @@ from urllib.parse import unquote
 
 from wrapit.drawing.svg.reading.element import Element
 
+# What has stops (SVG 2, 14.2).
 _GRADIENTS = ("linearGradient", "radialGradient")
 # Gradients may take what they lack from others; a chain longer than this goes round, or nobody wrote it.
 _LONGEST_CHAIN = 20
@@ -25,6 +26,13 @@ class Links:
     def target(self, link: str) -> Element | None:
         """What a link within the file leads to; None for one that leads nowhere, or out of it."""
         return self._named.get(unquote(link[1:].strip())) if link.startswith("#") else None
+
+    def named_in(self, value: str) -> Element | None:
+        """What `url(#name)` leads to; None for another value."""
+        value = value.strip()
+        return (
+            self.target(value[4:].partition(")")[0].strip(" \t\n\"'")) if value.startswith("url(") else None
+        )
 
     def is_endless(self, use: Element) -> bool:
         """Whether what a `use` copies contains the `use` itself, over however many others."""

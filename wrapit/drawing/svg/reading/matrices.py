@@ -16,8 +16,11 @@ from wrapit.geometry import FloatArray
 
 Matrix = tuple[float, float, float, float, float, float]
 
+# The matrix that does nothing.
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+# A function with its arguments, and what may stand before it in a list.
 _FUNCTION = re.compile(r"[\s,]*([A-Za-z0-9]+)\s*\(([^()]*)\)")
+# The units of angles (CSS Values 4, 7.1).
 _DEGREES = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
 # Where `transform-origin` has words.
 _PLACES = {"left": 0.0, "top": 0.0, "center": 50.0, "right": 100.0, "bottom": 100.0}
@@ -78,6 +81,26 @@ def transform(text: str, measure: Measure) -> Matrix | None:
             return None
         matrix, at = times(matrix, single), found.end()
     return matrix if not text[at:].strip() else None
+
+
+def written_transform(declared: dict[str, str]) -> str:
+    """All that properties say of a transform, as one list; the single ones come before the list."""
+    parts = [
+        f"{name}({declared[name].strip() if name == 'rotate' else ','.join(declared[name].split())})"
+        for name in ("translate", "rotate", "scale")
+        if name in declared and declared[name].strip() != "none"
+    ]
+    parts.append(declared.get("transform", ""))
+    return " ".join(part for part in parts if part.strip() not in ("", "none"))
+
+
+def about(written: str, place: str, x: float, y: float, measure: Measure) -> Matrix:
+    """The matrix of a transform about an origin within a box with a corner and the measure's size."""
+    found = transform(written, measure) if written else None
+    if found is None:
+        return IDENTITY
+    dx, dy = origin(place, measure) or (0.0, 0.0)
+    return times(moved_by(x + dx, y + dy), times(found, moved_by(-x - dx, -y - dy)))
 
 
 def origin(text: str, measure: Measure) -> tuple[float, float] | None:
@@ -187,6 +210,7 @@ def _skew_y(arguments: _Arguments, _: Measure) -> Matrix:
     return (1.0, math.tan(_radians(arguments[0])), 0.0, 1.0, 0.0, 0.0)
 
 
+# By their names in lower case (CSS Transforms 1 and 2); of those in space, what they do in the plane.
 _FUNCTIONS: dict[str, Callable[[_Arguments, Measure], Matrix]] = {
     "matrix": _matrix,
     "matrix3d": _matrix3d,

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from wrapit.drawing.svg.planar import Curve
-from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant
+from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant, inverse
 from wrapit.drawing.svg.reading.paints import Colour
 from wrapit.geometry import FloatArray
 
@@ -99,7 +99,17 @@ class Page:
     omissions: tuple[Omission, ...] = field(default=())
 
 
-def bounds(shapes: Iterable[Shape]) -> tuple[FloatArray, FloatArray] | None:
+def box_within(shapes: Iterable[Shape], matrix: Matrix) -> tuple[float, float, float, float] | None:
+    """x, y, width and height of shapes in the units from which a matrix leads to px."""
+    back = inverse(matrix)
+    found = _bounds(shape.moved(back) for shape in shapes) if back else None
+    if found is None:
+        return None
+    (x, y), (right, bottom) = found
+    return float(x), float(y), float(right - x), float(bottom - y)
+
+
+def _bounds(shapes: Iterable[Shape]) -> tuple[FloatArray, FloatArray] | None:
     """Lowest and highest corner (2,) of the shapes' outlines; None where there are none."""
     points = []
     for shape in shapes:

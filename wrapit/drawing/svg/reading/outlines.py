@@ -10,7 +10,7 @@ import numpy as np
 from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading import basic_shapes
 from wrapit.drawing.svg.reading.element import Element
-from wrapit.drawing.svg.reading.lengths import Measure, Side, length
+from wrapit.drawing.svg.reading.lengths import Measure, lengths_of
 from wrapit.drawing.svg.reading.links import Links
 from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant
 from wrapit.drawing.svg.reading.model import Omission, Paint, Shape
@@ -28,12 +28,14 @@ _LARGEST_PX = 1e12
 # Parts that are shorter (in px) are dots, or rounding.
 _SHORTEST_PX = 1e-9
 
+# How the outline of each basic shape is drawn; a path and lists of points have data instead.
 _BASIC: dict[str, Callable[[basic_shapes.Lengths], list[Subpath]]] = {
     "rect": basic_shapes.rectangle,
     "circle": basic_shapes.circle,
     "ellipse": basic_shapes.ellipse,
     "line": basic_shapes.line,
 }
+# All elements that have an outline (SVG 2, chapters 9 and 10).
 OUTLINED = (*_BASIC, "path", "polyline", "polygon")
 
 
@@ -115,11 +117,8 @@ class Outliner:
         return Paint(paint.colour, opacity) if opacity > 0 else None
 
     def _subpaths(self, element: Element, declared: dict[str, str], measure: Measure) -> list[Subpath]:
-        def get(name: str, side: Side) -> float | None:
-            return length(declared.get(name), measure, side)
-
         if element.name in _BASIC:
-            found = _BASIC[element.name](get)
+            found = _BASIC[element.name](lengths_of(declared, measure))
             self._parts += sum(len(subpath.cubics) for subpath in found)
         else:
             most = MOST_PARTS - self._parts

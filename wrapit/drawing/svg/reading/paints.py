@@ -27,9 +27,11 @@ class PaintValue:
     fallback: PaintValue | None = None
 
 
+# What `fill` and `stroke` are at first, by the specification: black and nothing.
 NOTHING = PaintValue("none")
 BLACK = PaintValue("colour", (0.0, 0.0, 0.0, 1.0))
 
+# Values that are one word (SVG 2, 13.2).
 _WORDS = {
     "none": NOTHING,
     "currentcolor": PaintValue("current"),

@@ -7,7 +7,9 @@ import re
 from wrapit.drawing.svg.reading.lengths import NUMBER
 from wrapit.drawing.svg.reading.pen import Pen, Point, Subpath
 
+# The commands, and how many numbers each takes.
 _NUMBERS_EACH = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
+# What is between commands, what is between numbers, and numbers; flags need nothing between them.
 _BLANK = re.compile(r"[ \t\r\n\f]*")
 _COMMA = re.compile(r"[ \t\r\n\f]*,?[ \t\r\n\f]*")
 _NUMBER = re.compile(NUMBER)
@@ -54,7 +56,7 @@ def path_subpaths(text: str, most: int) -> tuple[list[Subpath], int | None, int]
 def polygon_subpaths(text: str, closed: bool, most: int) -> tuple[list[Subpath], int | None, int]:
     """The same for `points`: what is no number ends them, and half a point is left out."""
     pen, values, at = Pen(), list[float](), _skip(_BLANK, text, 0)
-    while len(values) <= 2 * most and (found := _NUMBER.match(text, at)):
+    while len(values) <= 2 * most + 2 and (found := _NUMBER.match(text, at)):
         values.append(float(found[0]))
         at = _skip(_COMMA, text, found.end())
     points = list(zip(values[::2], values[1::2], strict=False))

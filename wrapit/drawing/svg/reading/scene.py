@@ -10,23 +10,22 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from wrapit.drawing.svg.reading import conditions
 from wrapit.drawing.svg.reading.css import Cascade
 from wrapit.drawing.svg.reading.document import DEEPEST, read_document
-from wrapit.drawing.svg.reading.element import Element
-from wrapit.drawing.svg.reading.lengths import Measure, Side, length, number
+from wrapit.drawing.svg.reading.element import Element, chosen, met
+from wrapit.drawing.svg.reading.lengths import Measure, lengths_of, number
 from wrapit.drawing.svg.reading.links import Links
 from wrapit.drawing.svg.reading.matrices import (
     IDENTITY,
     Matrix,
+    about,
     determinant,
     inverse,
     moved_by,
-    origin,
     times,
-    transform,
+    written_transform,
 )
-from wrapit.drawing.svg.reading.model import Clip, Missing, Omission, Page, Shape, bounds
+from wrapit.drawing.svg.reading.model import Clip, Missing, Omission, Page, Shape, box_within
 from wrapit.drawing.svg.reading.outlines import OUTLINED, Outliner
 from wrapit.drawing.svg.reading.styles import Style, derived, is_valid
 from wrapit.drawing.svg.reading.viewport import fitted, page_size, view_box
@@ -35,6 +34,7 @@ from wrapit.errors import DrawingError
 # All copies counted. Reading as many takes a few seconds, and no jewellery has so many.
 MOST_SHAPES = 20_000
 
+# What is drawn with all in it, what `use` can copy besides, and what is left out with a warning.
 _GROUPS = ("g", "a", "switch")
 _COPIED = (*_GROUPS, *OUTLINED, "use", "text", "image", "foreignObject")
 _LEFT_OUT: dict[str, Missing] = {"text": "text", "image": "picture", "foreignObject": "foreign"}
@@ -103,7 +103,7 @@ class _Scene:
         declared = self._cascade.declared(element)
         if declared.get("display", "").strip().lower() == "none" and name != "symbol":
             return []
-        if not conditions.met(element):
+        if not met(element):
             return []
         measure = replace(around.measure, font=around.style.font)
         style = derived(around.style, declared, measure)
@@ -142,7 +142,7 @@ class _Scene:
                 )
             ]
         if name in _GROUPS:
-            return self._children(conditions.chosen(element) if name == "switch" else element.inside, frame)
+            return self._children(chosen(element) if name == "switch" else element.inside, frame)
         if name == "use":
             return self._copy(element, declared, frame)
         if name == "svg" or (name == "symbol" and size is not None):
@@ -171,7 +171,7 @@ class _Scene:
         if self._links.is_endless(element):
             self._omissions.append(Omission("recursion", element.line, link[:60]))
             return []
-        get = _lengths(declared, frame.measure)
+        get = lengths_of(declared, frame.measure)
         place = moved_by(get("x", "width") or 0.0, get("y", "height") or 0.0)
         style = frame.style
         context = (
@@ -191,21 +191,16 @@ class _Scene:
         size: tuple[float | None, float | None] | None,
     ) -> list[Shape]:
         """What is in an `svg` or a `symbol`: fitted into its place, and clipped to it."""
-        get, measure = _lengths(declared, frame.measure), frame.measure
+        get, measure = lengths_of(declared, frame.measure), frame.measure
         outermost = element is self._root
         asked = size or (None, None)
         own = (get("width", "width"), get("height", "height")) if element.name == "svg" else (None, None)
-        width = (
-            measure.width
-            if asked[0] is None and own[0] is None
-            else (own[0] if asked[0] is None else asked[0])
+        whole = (measure.width, measure.height)
+        width, height = (
+            next(each for each in choices if each is not None)
+            for choices in zip(asked, own, whole, strict=True)
         )
-        height = (
-            measure.height
-            if asked[1] is None and own[1] is None
-            else (own[1] if asked[1] is None else asked[1])
-        )
-        if width is None or height is None or width <= 0 or height <= 0:
+        if width <= 0 or height <= 0:
             return []
         matrix = frame.matrix
         if element.name == "svg" and not outermost:
@@ -229,30 +224,18 @@ class _Scene:
         self, element: Element, declared: dict[str, str]
     ) -> tuple[Callable[[float, float, Measure], Matrix], bool]:
         """The matrix about a box, by its corner and a measure of its size; whether it is the own box."""
-        parts = [
-            f"{name}({declared[name].strip() if name == 'rotate' else ','.join(declared[name].split())})"
-            for name in ("translate", "rotate", "scale")
-            if name in declared and declared[name].strip() != "none"
-        ]
-        parts.append(declared.get("transform", ""))
-        text = " ".join(part for part in parts if part.strip() not in ("", "none"))
         if "transform" in element.attrib and not is_valid("transform", element.attrib["transform"]):
             self._omissions.append(Omission("transform", element.line, element.attrib["transform"][:40]))
-        about = declared.get("transform-origin", "0 0")
         own_box = declared.get("transform-box", "").strip().lower() in _OWN_BOXES
+        written = written_transform(declared)
 
         def matrix(x: float, y: float, measure: Measure) -> Matrix:
-            found = transform(text, measure)
-            if found is None or not text:
-                return IDENTITY
-            dx, dy = origin(about, measure) or (0.0, 0.0)
-            return times(moved_by(x + dx, y + dy), times(found, moved_by(-x - dx, -y - dy)))
+            return about(written, declared.get("transform-origin", "0 0"), x, y, measure)
 
-        return matrix, own_box and bool(text)
+        return matrix, own_box and bool(written)
 
     def _clipped(self, declared: dict[str, str], frame: _Frame, shapes: list[Shape]) -> list[Shape]:
-        value = declared.get("clip-path", "").strip()
-        target = self._links.target(_name_in(value)) if value.startswith("url(") else None
+        target = self._links.named_in(declared.get("clip-path", ""))
         if target is None or target.name != "clipPath" or not shapes or target in self._clipping:
             return shapes
         self._clipping.append(target)
@@ -265,7 +248,7 @@ class _Scene:
         declared = self._cascade.declared(element)
         matrix = frame.matrix
         if element.get("clipPathUnits") == "objectBoundingBox":
-            found = _box_within(shapes, matrix)
+            found = box_within(shapes, matrix)
             if found is None:
                 return Clip(())
             x, y, width, height = found
@@ -280,8 +263,7 @@ class _Scene:
         return Clip(tuple(self._clipped(declared, replace(inner, matrix=frame.matrix), drawn)))
 
     def _masks(self, declared: dict[str, str]) -> bool:
-        value = declared.get("mask", "").strip()
-        target = self._links.target(_name_in(value)) if value.startswith("url(") else None
+        target = self._links.named_in(declared.get("mask", ""))
         return target is not None and target.name == "mask"
 
     def _refuse_endless(self, element: Element, depth: int) -> None:
@@ -304,7 +286,7 @@ def _turned(
     shapes: list[Shape], frame: _Frame, own: Callable[[float, float, Measure], Matrix]
 ) -> list[Shape]:
     """Shapes under a transform about their own box."""
-    found, back = _box_within(shapes, frame.matrix), inverse(frame.matrix)
+    found, back = box_within(shapes, frame.matrix), inverse(frame.matrix)
     if found is None or back is None:
         return shapes
     x, y, width, height = found
@@ -313,22 +295,3 @@ def _turned(
         return []
     matrix = times(frame.matrix, times(matrix, back))
     return [shape.moved(matrix) for shape in shapes]
-
-
-def _box_within(shapes: list[Shape], matrix: Matrix) -> tuple[float, float, float, float] | None:
-    """x, y, width and height of shapes in the units from which a matrix leads to px."""
-    back = inverse(matrix)
-    found = bounds(shape.moved(back) for shape in shapes) if back else None
-    if found is None:
-        return None
-    (x, y), (right, bottom) = found
-    return float(x), float(y), float(right - x), float(bottom - y)
-
-
-def _lengths(declared: dict[str, str], measure: Measure) -> Callable[[str, Side], float | None]:
-    return lambda name, side: length(declared.get(name), measure, side)
-
-
-def _name_in(url: str) -> str:
-    """The link within `url(...)`."""
-    return url[4:].partition(")")[0].strip().strip("\"'").strip()
