@@ -1,4 +1,7 @@
-"""`make bench`: every benchmark, or those named: `python -m tests.bench drawing jig`."""
+"""`make bench`: every benchmark, or those named: `python -m tests.bench drawing jig`.
+
+Words behind a name that name no benchmark are its own: `python -m tests.bench icons FOLDER`.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,22 @@ def main() -> None:
         if not info.name.startswith("_")
         and hasattr(importlib.import_module(f"tests.bench.{info.name}"), "main")
     ]
-    for area in sys.argv[1:] or areas:
-        if area not in areas:
-            sys.exit(f"no benchmark named {area}; there are {', '.join(areas)}")
+    named: dict[str, list[str]] = {}
+    for word in sys.argv[1:] or areas:
+        if word in areas:
+            named[word] = []
+        elif named and [*named][-1] in TAKE_WORDS:
+            named[[*named][-1]].append(word)
+        else:
+            sys.exit(f"no benchmark named {word}; there are {', '.join(areas)}")
+    for area, words in named.items():
         print(f"\n== {area} ==", flush=True)
-        importlib.import_module(f"tests.bench.{area}").main()
+        run = importlib.import_module(f"tests.bench.{area}").main
+        run(words) if area in TAKE_WORDS else run()
 
+
+# The benchmarks whose `main` takes words: names of drawings, kinds of cases, folders.
+TAKE_WORDS = ("drawing", "cases", "hard_edges", "icons")
 
 if __name__ == "__main__":
     main()
