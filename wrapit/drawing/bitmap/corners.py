@@ -25,9 +25,15 @@ _FAR = 4.5
 _LEAST = 0.45
 # Between which points is turning looked for? From 0.8 to 1.7 on either side: the chord over a width.
 _PROBE = 1.7
+# When are two places of most turning one corner? Where they are nearer than a width and a quarter.
+_TWICE = 1.25
 # A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one. With 0.49
 # true corners become bends: Hausdorff distance 0.28.
 _ROUND = 0.7
+# When is a side straight? Where a straight line misses it by hardly more than a quadratic: 1.2 times, and a
+# thousandth of a width.
+_STRAIGHT = 1.2
+_SLACK = 0.001
 # What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36
 # change the Béziers by two in 242.
 _SEEN_RAD = math.radians(28)
@@ -47,7 +53,7 @@ def find_corners(line: Line, width_px: float, first: int, last: int) -> list[Cor
     """The corners of a line between two of its points, in walking order."""
     low, high = line.along[first], line.along[last]
     found: list[Corner] = []
-    candidates = _candidates(line, width_px, low, high)
+    candidates = _together(_candidates(line, width_px, low, high), _TWICE * width_px)
     for k, place in enumerate(candidates):
         start = max(low, candidates[k - 1] + _LEAST * width_px if k else low, place - _FAR * width_px)
         end = candidates[k + 1] - _LEAST * width_px if k + 1 < len(candidates) else high
@@ -90,6 +96,17 @@ def _candidates(line: Line, width_px: float, low: float, high: float) -> list[fl
     return places
 
 
+def _together(places: list[float], apart: float) -> list[float]:
+    """One place in the middle of two that are too near to be two corners: one corner seen from both sides."""
+    single: list[float] = []
+    for place in places:
+        if single and place - single[-1] < apart:
+            single[-1] = (single[-1] + place) / 2
+        else:
+            single.append(place)
+    return single
+
+
 def _disturbed_middle(line: Line, at: int, least: float) -> float:
     """Length at the middle of the disturbed stretch around a point, whose own shape means nothing."""
     first = last = at
@@ -113,8 +130,7 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
             chosen = chosen[np.abs(along[chosen]) <= np.abs(along[chosen]).min() + _SIDE * width_px]
         if len(chosen) < 4 or np.ptp(along[chosen]) < _LEAST * width_px:
             return None
-        degree = 2 if np.ptp(along[chosen]) > 1.2 * width_px else 1
-        sides.append((chosen, polynomial(along[chosen], line.points[chosen], degree)))
+        sides.append((chosen, _side(along[chosen], line.points[chosen], width_px)))
     met = crossing(sides[0][1], sides[1][1], _FAR * width_px, 0.05 * width_px)
     if met is None:
         return None
@@ -125,6 +141,19 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
     if turn < _SEEN_RAD or off > 1.5 * width_px or off > _ROUND * sharpness + 0.05 * width_px:
         return None
     return Corner(apex, int(sides[0][0][-1]) + 1, int(sides[1][0][0]), turn)
+
+
+def _side(along: FloatArray, points: FloatArray, width_px: float) -> FloatArray:
+    """Coefficients of a side: a straight line where a quadratic, which errs more ahead, fits no better."""
+    straight = polynomial(along, points, 1)
+    if np.ptp(along) <= 1.2 * width_px:
+        return straight
+    curved = polynomial(along, points, 2)
+    missed = [
+        float(np.sqrt(((along[:, None] ** np.arange(len(model)) @ model - points) ** 2).sum(axis=1).mean()))
+        for model in (straight, curved)
+    ]
+    return straight if missed[0] < _STRAIGHT * missed[1] + _SLACK * width_px else curved
 
 
 def split_corners(graph: StrandGraph, lines: dict[int, Line], width_px: float, corner_rad: float) -> None:
@@ -164,6 +193,7 @@ def _split(
             stretch.append(corner.apex)
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
+    graph.corners |= set(nodes[1:-1])
     pieces = [_joined(line, items) for items in [*(items for items, _ in parts), stretch]]
     if graph.is_seam(s.start) and len(pieces) > 1:
         # A closed loop with corners needs its seam no longer.
