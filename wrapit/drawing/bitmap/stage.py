@@ -21,6 +21,7 @@ from wrapit.drawing.bitmap.corners import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.short import forks_apart
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.overlaps.tips import open_tips
 from wrapit.drawing.bitmap.pairing import kinked, pair
@@ -114,7 +115,7 @@ def _traced(
     lines = centre_lines(graph, ink, width_px)
     open_tips(graph, lines, ink, width_px)
     resolve_overlaps(graph, lines, ink, width_px)
-    contract_short(graph, radius, 1.0)
+    contract_short(graph, radius, 1.0, forks_apart(graph, lines, width_px))
     if tidy(graph, radius, width_px):
         lines = renewed(graph, lines, ink, width_px)
     close_gaps(graph, lines, ink, width_px)
