@@ -80,9 +80,7 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
         graph.drop_lonely()
 
 
-def contract_short(
-    graph: StrandGraph, radius: Radii, share: float, apart: Set[int] = frozenset()
-) -> None:
+def contract_short(graph: StrandGraph, radius: Radii, share: float, apart: Set[int] = frozenset()) -> None:
     """Makes one node of two whose strand is shorter than `share` times the sum of their half widths.
 
     Strands in `apart` stay.

@@ -68,7 +68,7 @@ class StrandGraph:
         return len(self._ends[node])
 
     def is_seam(self, node: int) -> bool:
-        """Whether a closed strand starts and ends at a node for no other reason than that it must somewhere."""
+        """Whether a closed strand starts and ends at a node only because it must somewhere."""
         ends = self._ends[node]
         return len(ends) == 2 and ends[0][0] == ends[1][0] and node not in self.corners
 

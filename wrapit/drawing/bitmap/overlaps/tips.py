@@ -82,7 +82,8 @@ def _open(
     arms = [arm(lines[s], s, e, width_px) for s, e in graph.ends_at(node) if s != strand]
     outermost = _outermost(arms, walked)
     sides = _sides(outermost, walked, ink, width_px)
-    found = crossing(*(side.model(width_px) for side in sides), _AHEAD * width_px, 0.05 * width_px)
+    one, other = (side.model(width_px) for side in sides)
+    found = crossing(one, other, _AHEAD * width_px, 0.05 * width_px)
     if found is None:
         return
     apex, first, second = found
