@@ -87,7 +87,11 @@ def _open(
     if found is None:
         return
     apex, first, second = found
-    if angle(first, second) > math.pi / 2 or not _is_tip(apex, -unit(first + second), ink, width_px):
+    between_sides = angle(first, second)
+    mitre = width_px / 2 / math.sin(max(between_sides, 0.1) / 2)
+    if between_sides > math.pi / 2 or np.linalg.norm(walked[-1] - apex) > mitre + _REACHES * width_px:
+        return
+    if not _is_tip(apex, -unit(first + second), mitre, ink, width_px):
         return
     graph.note("spur", walked[-1], lines[strand].length, "the tip of an acute corner")
     graph.drop_strand(strand)
@@ -128,8 +132,8 @@ def _sides(arms: tuple[Arm, Arm], walked: FloatArray, ink: Ink, width_px: float)
     return sides[0], sides[1]
 
 
-def _is_tip(apex: FloatArray, ahead: FloatArray, ink: Ink, width_px: float) -> bool:
-    """Whether the ink ends at an apex, or tapers from there on."""
+def _is_tip(apex: FloatArray, ahead: FloatArray, mitre: float, ink: Ink, width_px: float) -> bool:
+    """Whether the ink ends at an apex, or tapers from there on for as long as a mitre."""
     steps = np.arange(0.0, _STEM * width_px, 0.5)
     light = np.flatnonzero(sample(ink.grey, apex[None], ahead[None], steps)[0] > ink.half)
     if not len(light):
@@ -137,6 +141,8 @@ def _is_tip(apex: FloatArray, ahead: FloatArray, ink: Ink, width_px: float) -> b
     reach = float(steps[light[0]])
     if reach < _REACHES * width_px:
         return True
+    if reach > mitre + _REACHES * width_px:
+        return False
     across = np.array([-ahead[1], ahead[0]])
     offsets = np.arange(-width_px, width_px, 0.5)
     levels = sample(ink.grey, (apex + reach / 2 * ahead)[None], across[None], offsets)[0]
