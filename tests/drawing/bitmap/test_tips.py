@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.drawing.bitmap.figures import CENTRE, TURNS, few, in_pixels, line, turned
 from tests.drawing.generated import degrees
 
-ANGLES = st.floats(15, 60)
+ANGLES = st.floats(20, 60)
 THICK = st.floats(9.0, 12.0)
 
 
@@ -37,7 +37,7 @@ def test_an_open_tip_is_one_corner_at_its_apex(traced, angle, width, turn):
 
 
 @few
-@given(st.floats(18, 60), THICK, TURNS)
+@given(ANGLES, THICK, TURNS)
 def test_a_closed_tip_is_one_corner_at_its_apex(traced, angle, width, turn):
     points = turned(line(*tip(angle), tip(angle)[0]), turn)
     drawing, _ = traced([points], width)
