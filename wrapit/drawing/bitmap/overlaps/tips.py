@@ -109,7 +109,9 @@ def _usual(lines: dict[int, Line], arms: tuple[Arm, Arm], width_px: float) -> fl
     """How broad the strokes at a tip are where they stand alone; it places the tip."""
     known = np.concatenate([lines[each.strand].width[lines[each.strand].clean] for each in arms])
     known = known[np.isfinite(known)]
-    return float(np.median(known)) if len(known) >= 6 else width_px
+    # Strokes much broader or thinner than the others tell no tip, but a crossing near an end.
+    usual = float(np.median(known)) if len(known) >= 6 else width_px
+    return usual if abs(usual - width_px) < 0.15 * width_px else width_px
 
 
 def _outermost(arms: list[Arm], walked: FloatArray) -> tuple[Arm, Arm]:
