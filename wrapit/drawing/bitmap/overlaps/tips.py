@@ -81,7 +81,7 @@ def _open(
     walked = lines[strand].points if end == 0 else lines[strand].points[::-1]
     arms = [arm(lines[s], s, e, width_px) for s, e in graph.ends_at(node) if s != strand]
     outermost = _outermost(arms, walked)
-    sides = _sides(outermost, walked, ink, _usual(lines, outermost, width_px))
+    sides = _sides(outermost, walked, ink, width_px)
     one, other = (side.model(width_px) for side in sides)
     found = crossing(one, other, _AHEAD * width_px, 0.05 * width_px)
     if found is None:
@@ -103,15 +103,6 @@ def _open(
         if len(side.lead):
             known = np.ones(len(side.lead), dtype=bool)
             lead_to(graph, lines, side.arm, node, side.lead, known, width_px)
-
-
-def _usual(lines: dict[int, Line], arms: tuple[Arm, Arm], width_px: float) -> float:
-    """How broad the strokes at a tip are where they stand alone; it places the tip."""
-    known = np.concatenate([lines[each.strand].width[lines[each.strand].clean] for each in arms])
-    known = known[np.isfinite(known)]
-    # Strokes much broader or thinner than the others tell no tip, but a crossing near an end.
-    usual = float(np.median(known)) if len(known) >= 6 else width_px
-    return usual if abs(usual - width_px) < 0.15 * width_px else width_px
 
 
 def _outermost(arms: list[Arm], walked: FloatArray) -> tuple[Arm, Arm]:
