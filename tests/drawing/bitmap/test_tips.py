@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.drawing.bitmap.figures import CENTRE, TURNS, few, in_pixels, line, turned
 from tests.drawing.generated import degrees
 
-ANGLES = st.floats(20, 60)
+ANGLES = st.floats(28, 60)
 THICK = st.floats(9.0, 12.0)
 
 
