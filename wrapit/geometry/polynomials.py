@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, unit
 
 
 def horner(terms: list[list[float]], along: float) -> tuple[float, float, float, float]:
@@ -40,6 +40,38 @@ def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray
     normal = powers @ powers.T + 1e-12 * np.eye(degree + 1)
     solution = np.linalg.solve(normal, powers @ points)
     return solution / scale ** np.arange(degree + 1)[:, None]
+
+
+def crossing(
+    before: FloatArray, after: FloatArray, limit: float, apart: float
+) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Where two parametric polynomials meet within `limit` of their zero, and their unit directions there.
+
+    Nothing where they are parallel or come no nearer to each other than `apart`.
+    """
+    s, t = 0.0, 0.0
+    terms = before.tolist(), after.tolist()
+    for _ in range(6):
+        (px, py, ax, ay), (qx, qy, bx, by) = _value(terms[0], s), _value(terms[1], t)
+        determinant = ay * bx - ax * by
+        if abs(determinant) < 1e-3 * math.hypot(ax, ay) * math.hypot(bx, by):
+            return None
+        s += ((qy - py) * bx - (qx - px) * by) / determinant
+        t += ((qy - py) * ax - (qx - px) * ay) / determinant
+        s, t = min(max(s, -limit), limit), min(max(t, -limit), limit)
+    p, q = np.array(_value(terms[0], s)), np.array(_value(terms[1], t))
+    if np.linalg.norm(p[:2] - q[:2]) > apart:
+        return None
+    return (p[:2] + q[:2]) / 2, unit(p[2:]), unit(q[2:])
+
+
+def _value(terms: list[list[float]], at: float) -> tuple[float, float, float, float]:
+    """Place and derivative of a parametric polynomial."""
+    x = y = dx = dy = 0.0
+    for a, b in reversed(terms):
+        dx, dy = dx * at + x, dy * at + y
+        x, y = x * at + a, y * at + b
+    return x, y, dx, dy
 
 
 def angle(a: FloatArray, b: FloatArray) -> float:

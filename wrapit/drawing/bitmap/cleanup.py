@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -78,14 +80,17 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
         graph.drop_lonely()
 
 
-def contract_short(graph: StrandGraph, radius: Radii, share: float) -> None:
-    """Makes one node of two whose strand is shorter than `share` times the sum of their half widths."""
+def contract_short(graph: StrandGraph, radius: Radii, share: float, apart: Set[int] = frozenset()) -> None:
+    """Makes one node of two whose strand is shorter than `share` times the sum of their half widths.
+
+    Strands in `apart` stay.
+    """
     merged = True
     while merged:
         short = []
         reach = {node: radius(point) for node, point in graph.nodes.items() if graph.degree(node) >= 3}
         for strand, s in graph.strands.items():
-            if s.start == s.end or s.start not in reach or s.end not in reach:
+            if strand in apart or s.start == s.end or s.start not in reach or s.end not in reach:
                 continue
             limit = share * (reach[s.start] + reach[s.end])
             if len(s.points) <= limit and (length := graph.length(strand)) < limit:

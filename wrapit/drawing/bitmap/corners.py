@@ -10,9 +10,9 @@ import numpy as np
 from wrapit.drawing.bitmap.arms import arm
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
-from wrapit.geometry import FloatArray, unit
+from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
-from wrapit.geometry.polynomials import angle, polynomial
+from wrapit.geometry.polynomials import angle, crossing, polynomial
 
 # In stroke widths.
 # Which points tell the two sides of a corner? Those from 0.8 on, as nearer ones are rounded by the smoothing
@@ -25,13 +25,15 @@ _FAR = 4.5
 _LEAST = 0.45
 # Between which points is turning looked for? From 0.8 to 1.7 on either side: the chord over a width.
 _PROBE = 1.7
-# What is the tip of an acute corner? A stem of up to 5 widths (there the inner edges of a corner
-# of 11 degrees meet) that ends within 0.8 of where the two sides meet. 30 % make no difference.
-_TIP = 5.0
-_AT_TIP = 0.8
+# When are two places of most turning one corner? Where they are nearer than a width and a quarter.
+_TWICE = 1.25
 # A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one. With 0.49
 # true corners become bends: Hausdorff distance 0.28.
 _ROUND = 0.7
+# When is a side straight? Where a straight line misses it by hardly more than a quadratic: 1.2 times, and a
+# thousandth of a width.
+_STRAIGHT = 1.2
+_SLACK = 0.001
 # What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36
 # change the Béziers by two in 242.
 _SEEN_RAD = math.radians(28)
@@ -51,7 +53,7 @@ def find_corners(line: Line, width_px: float, first: int, last: int) -> list[Cor
     """The corners of a line between two of its points, in walking order."""
     low, high = line.along[first], line.along[last]
     found: list[Corner] = []
-    candidates = _candidates(line, width_px, low, high)
+    candidates = _together(_candidates(line, width_px, low, high), _TWICE * width_px)
     for k, place in enumerate(candidates):
         start = max(low, candidates[k - 1] + _LEAST * width_px if k else low, place - _FAR * width_px)
         end = candidates[k + 1] - _LEAST * width_px if k + 1 < len(candidates) else high
@@ -94,6 +96,17 @@ def _candidates(line: Line, width_px: float, low: float, high: float) -> list[fl
     return places
 
 
+def _together(places: list[float], apart: float) -> list[float]:
+    """One place in the middle of two that are too near to be two corners: one corner seen from both sides."""
+    single: list[float] = []
+    for place in places:
+        if single and place - single[-1] < apart:
+            single[-1] = (single[-1] + place) / 2
+        else:
+            single.append(place)
+    return single
+
+
 def _disturbed_middle(line: Line, at: int, least: float) -> float:
     """Length at the middle of the disturbed stretch around a point, whose own shape means nothing."""
     first = last = at
@@ -117,12 +130,11 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
             chosen = chosen[np.abs(along[chosen]) <= np.abs(along[chosen]).min() + _SIDE * width_px]
         if len(chosen) < 4 or np.ptp(along[chosen]) < _LEAST * width_px:
             return None
-        degree = 2 if np.ptp(along[chosen]) > 1.2 * width_px else 1
-        sides.append((chosen, polynomial(along[chosen], line.points[chosen], degree)))
-    crossing = _crossing(sides[0][1], sides[1][1], width_px)
-    if crossing is None:
+        sides.append((chosen, _side(along[chosen], line.points[chosen], width_px)))
+    met = crossing(sides[0][1], sides[1][1], _FAR * width_px, 0.05 * width_px)
+    if met is None:
         return None
-    apex, arriving, leaving = crossing
+    apex, arriving, leaving = met
     turn = angle(arriving, leaving)
     off = float(np.linalg.norm(line.points - apex, axis=1).min())
     sharpness = width_px * (1 / max(math.cos(turn / 2), 0.05) - 1)
@@ -131,72 +143,24 @@ def _corner(line: Line, width_px: float, place: float, start: float, end: float)
     return Corner(apex, int(sides[0][0][-1]) + 1, int(sides[1][0][0]), turn)
 
 
-def _crossing(
-    before: FloatArray, after: FloatArray, width_px: float, limit: float = _FAR
-) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-    """Where two parametric polynomials meet near their zero, and their directions there."""
-    s, t = 0.0, 0.0
-    limit *= width_px
-    terms = before.tolist(), after.tolist()
-    for _ in range(6):
-        (px, py, ax, ay), (qx, qy, bx, by) = _value(terms[0], s), _value(terms[1], t)
-        determinant = ay * bx - ax * by
-        if abs(determinant) < 1e-3 * math.hypot(ax, ay) * math.hypot(bx, by):
-            return None
-        s += ((qy - py) * bx - (qx - px) * by) / determinant
-        t += ((qy - py) * ax - (qx - px) * ay) / determinant
-        s, t = min(max(s, -limit), limit), min(max(t, -limit), limit)
-    p, q = np.array(_value(terms[0], s)), np.array(_value(terms[1], t))
-    if np.linalg.norm(p[:2] - q[:2]) > 0.05 * width_px:
-        return None
-    return (p[:2] + q[:2]) / 2, unit(p[2:]), unit(q[2:])
-
-
-def _value(terms: list[list[float]], at: float) -> tuple[float, float, float, float]:
-    """Place and derivative of a parametric polynomial."""
-    x = y = dx = dy = 0.0
-    for a, b in reversed(terms):
-        dx, dy = dx * at + x, dy * at + y
-        x, y = x * at + a, y * at + b
-    return x, y, dx, dy
-
-
-def open_tips(graph: StrandGraph, lines: dict[int, Line], width_px: float) -> None:
-    """Makes a corner of each acute tip: a fork whose stem ends where its two arms would meet."""
-    for node in [node for node in graph.nodes if graph.degree(node) == 3]:
-        stems = [
-            (strand, end)
-            for strand, end in graph.ends_at(node)
-            if graph.degree(_other(graph, strand, end)) == 1 and lines[strand].length < _TIP * width_px
-        ]
-        if len(stems) != 1:
-            continue
-        strand, end = stems[0]
-        sides = [arm(lines[s], s, e, width_px) for s, e in graph.ends_at(node) if s != strand]
-        if len(sides) != 2 or sides[0].strand == sides[1].strand:
-            continue
-        crossing = _crossing(sides[0].model, sides[1].model, width_px, _TIP + 1)
-        if crossing is None:
-            continue
-        apex, first, second = crossing
-        tip = graph.nodes[_other(graph, strand, end)]
-        if np.linalg.norm(apex - tip) < _AT_TIP * width_px and angle(first, second) < math.pi / 2:
-            graph.note("spur", tip, lines[strand].length, "the tip of an acute corner")
-            graph.drop_strand(strand)
-            del lines[strand]
-            graph.drop_lonely()
-            graph.nodes[node] = apex
-
-
-def _other(graph: StrandGraph, strand: int, end: int) -> int:
-    return graph.strands[strand].end if end == 0 else graph.strands[strand].start
+def _side(along: FloatArray, points: FloatArray, width_px: float) -> FloatArray:
+    """Coefficients of a side: a straight line where a quadratic, which errs more ahead, fits no better."""
+    straight = polynomial(along, points, 1)
+    if np.ptp(along) <= 1.2 * width_px:
+        return straight
+    curved = polynomial(along, points, 2)
+    missed = [
+        float(np.sqrt(((along[:, None] ** np.arange(len(model)) @ model - points) ** 2).sum(axis=1).mean()))
+        for model in (straight, curved)
+    ]
+    return straight if missed[0] < _STRAIGHT * missed[1] + _SLACK * width_px else curved
 
 
 def split_corners(graph: StrandGraph, lines: dict[int, Line], width_px: float, corner_rad: float) -> None:
     """Makes a node of each corner sharper than `corner_rad`; gentler ones become points of their line."""
     for strand in list(graph.strands):
         s = graph.strands[strand]
-        closed = s.start == s.end and graph.degree(s.start) == 2
+        closed = graph.is_seam(s.start)
         line = lines[strand]
         if closed:
             line = lines[strand] = line.turned(_flattest(line, width_px))
@@ -229,8 +193,9 @@ def _split(
             stretch.append(corner.apex)
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
+    graph.corners |= set(nodes[1:-1])
     pieces = [_joined(line, items) for items in [*(items for items, _ in parts), stretch]]
-    if nodes[0] == nodes[-1] and graph.degree(nodes[0]) == 2 and len(pieces) > 1:
+    if graph.is_seam(s.start) and len(pieces) > 1:
         # A closed loop with corners needs its seam no longer.
         pieces[0] = _after(pieces.pop(), pieces[0])
         nodes[0] = nodes[-2]

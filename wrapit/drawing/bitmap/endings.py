@@ -61,8 +61,10 @@ def place(
         foot_now = curve.foot(point, foot)
         direction = curve.at(foot_now)[1]
         offset = point - curve.at(foot_now)[0]
-        endings[i] = Ending(-direction, _lead(curve, foot_now, -curve.gap / 2, offset, arms[i]), arms[i].cut)
-        endings[j] = Ending(direction, _lead(curve, foot_now, curve.gap / 2, offset, arms[j]), arms[j].cut)
+        for k, sign in ((i, -1), (j, 1)):
+            lead = _lead(curve, foot_now, sign * curve.gap / 2, offset, arms[k])
+            tangent = sign * direction
+            endings[k] = Ending(tangent, lead, arms[k].cut + _passed(arms[k], point, tangent))
     through_tangents = [endings[k].tangent for k in endings]
     for k in single:
         endings[k] = _single_ending(arms[k], point, through_tangents)
@@ -90,15 +92,27 @@ def _extrapolated(single: Arm, point: FloatArray) -> tuple[FloatArray, FloatArra
 
 def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -> Ending:
     on, direction = _extrapolated(single, point)
-    start = single.points[0]
+    passed = _passed(single, point, direction)
+    start = single.points[passed]
     gap = float(np.linalg.norm(start - point))
+    cut = single.cut + passed
     for tangent in tangents:
         if angle(tangent, direction) < _SNAP_RAD:
-            return Ending(tangent, np.zeros((0, 2)), single.cut)
+            return Ending(tangent, np.zeros((0, 2)), cut)
     if np.linalg.norm(on - point) > 0.3 * gap:
         # The extrapolation misses the junction: a plain line from there is the better guess.
         direction = unit(start - point) if gap > 1e-6 else direction
-    return Ending(direction, np.zeros((0, 2)), single.cut)
+    return Ending(direction, np.zeros((0, 2)), cut)
+
+
+def _passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:
+    """How many of an arm's first points lie behind the junction, where a stroke would have to double back.
+
+    A junction lies inside an arm where the others pull it there; at most half the arm makes way.
+    """
+    most = min(len(arm.points) - 1, int(np.searchsorted(arm.along, arm.length / 2)))
+    ahead = (arm.points[: most + 1] - point) @ tangent > 0
+    return int(np.argmax(ahead)) if ahead.any() else most
 
 
 def _lead(curve: Through, foot: float, cut: float, offset: FloatArray, to: Arm) -> FloatArray:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle, angle_of, horner, nearest_along, polynomial
 
 # How much may a stroke turn at a junction? Set on prototypes; 28 or 52 degrees make no difference to the
@@ -21,6 +21,10 @@ PAIR_RAD = math.radians(40)
 _KINK_RAD = math.radians(18)
 _CLOSE = 2.5
 _KNOWN = 1.0
+# When is there a step from one arm to another? Where they are as good as parallel and, carried on to the
+# middle between them, lie more than half a width beside each other: a step that the ink shows on both sides.
+_PARALLEL_RAD = math.radians(25)
+_BESIDE = 0.5
 
 
 def turn(a: Arm, b: Arm) -> float:
@@ -40,6 +44,19 @@ def _arriving(arm: Arm, along: float) -> tuple[float, float]:
     """Direction of travel towards the junction."""
     _, _, dx, dy = horner(arm.terms, along)
     return -dx, -dy
+
+
+def stepped(a: Arm, b: Arm) -> bool:
+    """Whether two arms run on beside each other: two strokes that end on either side of a third."""
+    if min(a.length, b.length) < _KNOWN * a.width_px:
+        return False
+    gap = b.points[0] - a.points[0]
+    reach = -float(np.linalg.norm(gap)) / 2
+    (at, leaving), (to, arriving) = a.at(reach), b.at(reach)
+    if angle(-leaving, arriving) > _PARALLEL_RAD:
+        return False
+    along = unit(arriving - leaving)
+    return abs(float((to - at) @ np.array([-along[1], along[0]]))) > _BESIDE * a.width_px
 
 
 def kinked(a: Arm, b: Arm) -> bool:

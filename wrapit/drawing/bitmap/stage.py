@@ -17,12 +17,14 @@ from wrapit.drawing.bitmap.cleanup import (
     tidy,
     without_pinholes,
 )
-from wrapit.drawing.bitmap.corners import open_tips, split_corners
+from wrapit.drawing.bitmap.corners import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.hard_edges.steady import steadied
 from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.short import forks_apart
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
+from wrapit.drawing.bitmap.overlaps.tips import open_tips
 from wrapit.drawing.bitmap.pairing import kinked, pair
 from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_picture
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
@@ -120,9 +122,9 @@ def _traced(
     drop_crumbs(graph, width_px)
     refuse_loose_strokes(graph, str(path))
     lines = centre_lines(graph, ink, width_px)
-    open_tips(graph, lines, width_px)
+    open_tips(graph, lines, ink, width_px)
     resolve_overlaps(graph, lines, ink, width_px)
-    contract_short(graph, radius, 1.0)
+    contract_short(graph, radius, 1.0, forks_apart(graph, lines, width_px))
     if tidy(graph, radius, width_px):
         lines = renewed(graph, lines, ink, width_px)
     close_gaps(graph, lines, ink, width_px)
@@ -223,7 +225,7 @@ def _fitted(
         if len(arms) == 1:
             graph.nodes[node], ending = place_end(arms[0], ink)
             endings[arms[0].strand, arms[0].end] = ending
-        elif len(arms) == 2 and arms[0].strand == arms[1].strand:
+        elif graph.is_seam(node):
             _seam(graph, lines, node, endings, width_px)
         else:
             graph.nodes[node], found = place(arms, graph.nodes[node], _pairs(graph, node, arms))

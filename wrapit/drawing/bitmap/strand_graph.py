@@ -31,7 +31,8 @@ class Strand:
 class StrandGraph:
     """Nodes (places) and strands by number; numbers are never used twice.
 
-    `through` holds, for nodes where it is known, which strand ends continue each other.
+    `through` holds, for nodes where it is known, which strand ends continue each other; `corners` are
+    nodes that stay although only two strand ends meet there.
     """
 
     nodes: dict[int, FloatArray] = field(default_factory=dict)
@@ -39,6 +40,7 @@ class StrandGraph:
     changes: list[Change] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
     through: dict[int, tuple[tuple[StrandEnd, StrandEnd], ...]] = field(default_factory=dict)
+    corners: set[int] = field(default_factory=set)
     _next: int = 0
     _ends: dict[int, list[StrandEnd]] = field(default_factory=dict)
 
@@ -64,6 +66,15 @@ class StrandGraph:
     def degree(self, node: int) -> int:
         """Number of strand ends at a node."""
         return len(self._ends[node])
+
+    def is_seam(self, node: int) -> bool:
+        """Whether a closed strand starts and ends at a node only because it must somewhere."""
+        ends = self._ends[node]
+        return len(ends) == 2 and ends[0][0] == ends[1][0] and node not in self.corners
+
+    def other_node(self, strand: int, end: int) -> int:
+        """The node at the other end of a strand."""
+        return self.strands[strand].end if end == 0 else self.strands[strand].start
 
     def path(self, strand: int) -> FloatArray:
         """The strand's points with its nodes at both ends, (n + 2, 2)."""
@@ -131,8 +142,8 @@ class StrandGraph:
         return self.add_strand(start, end, points)
 
     def rejoin_all(self) -> None:
-        """Rejoins at every node of degree two (a closed loop keeps its one node)."""
-        for node in [node for node in self.nodes if self.degree(node) == 2]:
+        """Rejoins at every node of degree two but corners (a closed loop keeps its one node)."""
+        for node in [node for node in self.nodes if self.degree(node) == 2 and node not in self.corners]:
             self.rejoin(node)
 
     def note(self, what: str, at_px: FloatArray, length_px: float, reason: str) -> None:

@@ -96,7 +96,7 @@ def _explained(
     widths = _widths(lines, [*heads, *tails], width_px)
     known_widths = np.concatenate(widths)
     usual = float(np.median(known_widths)) if len(known_widths) >= 6 else width_px
-    before, after = (_between(pair_, usual) for pair_ in (heads, tails))
+    before, after = (between(pair_, usual) for pair_ in (heads, tails))
     axis = even([before[::-1], way.points, after], usual)
     along = lengths(axis)
     step = along[-1] / (len(axis) - 1)
@@ -104,7 +104,7 @@ def _explained(
         int(lengths(np.vstack([before[::-1], way.points[:1]]))[-1] / step),
         len(axis) - int(lengths(np.vstack([way.points[-1:], after]))[-1] / step),
     )
-    sides = _measured(axis, ink, usual, step)
+    sides = measured(axis, ink, usual, step)
     if sides is None:
         return None
     left, right, known, gap = sides
@@ -127,7 +127,7 @@ def _explained(
     )  # fmt: skip
 
 
-def _measured(
+def measured(
     axis: FloatArray, ink: Ink, width_px: float, step: float
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], FloatArray] | None:
     """Centres of the left and the right stroke beside the axis, where they are known, and their distance."""
@@ -150,7 +150,7 @@ def _measured(
     return middle + left[:, None] * normal, middle - right[:, None] * normal, known, gap
 
 
-def _between(arms: tuple[Arm, Arm], width_px: float) -> FloatArray:
+def between(arms: tuple[Arm, Arm], width_px: float) -> FloatArray:
     """The way on between two arms beyond their fork, as far as both still touch it."""
     first, second = (each.near(_BEYOND * width_px)[1] for each in arms)
     count = min(len(first), len(second))

@@ -79,9 +79,9 @@ def _cross(graph: StrandGraph, lines: dict[int, Line], ribbon: Ribbon) -> None:
     arriving = [(arm.strand, arm.end) for arm in ribbon.heads]
     first, last = ribbon.swaps[0], ribbon.swaps[-1]
     for arm, side in zip(ribbon.heads, (ribbon.left, ribbon.right), strict=True):
-        _lead(graph, lines, arm, nodes[0], side[first::-1], ribbon.clean[first::-1], ribbon.width_px)
+        lead_to(graph, lines, arm, nodes[0], side[first::-1], ribbon.clean[first::-1], ribbon.width_px)
     for arm, side in zip(ribbon.tails, (ribbon.left, ribbon.right), strict=True):
-        _lead(graph, lines, arm, nodes[-1], side[last:], ribbon.clean[last:], ribbon.width_px)
+        lead_to(graph, lines, arm, nodes[-1], side[last:], ribbon.clean[last:], ribbon.width_px)
     for (start, low), (end, high) in itertools.pairwise(zip(nodes, ribbon.swaps, strict=True)):
         span = slice(low, high + 1)
         inner = [
@@ -109,8 +109,8 @@ def _part(graph: StrandGraph, lines: dict[int, Line], ribbon: Ribbon) -> None:
     for head, tail, side in zip(ribbon.heads, ribbon.tails, (ribbon.left, ribbon.right), strict=True):
         start, end = graph.add_node(side[0]), graph.add_node(side[-1])
         _strand(graph, lines, start, end, side, ribbon.clean, ribbon.width_px)
-        _lead(graph, lines, head, start, side[:1], ribbon.clean[:1], ribbon.width_px)
-        _lead(graph, lines, tail, end, side[-1:], ribbon.clean[-1:], ribbon.width_px)
+        lead_to(graph, lines, head, start, side[:1], ribbon.clean[:1], ribbon.width_px)
+        lead_to(graph, lines, tail, end, side[-1:], ribbon.clean[-1:], ribbon.width_px)
         ends += [start, end]
     for node in ends:
         rejoin(graph, lines, node)
@@ -143,7 +143,7 @@ def _strand(
     return strand
 
 
-def _lead(
+def lead_to(
     graph: StrandGraph,
     lines: dict[int, Line],
     arm: Arm,

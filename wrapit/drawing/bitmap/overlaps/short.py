@@ -12,7 +12,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm, arm
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.pairing import Through, through, turn
+from wrapit.drawing.bitmap.pairing import Through, stepped, through, turn
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
 
@@ -28,6 +28,8 @@ _BETTER = 0.6
 # How much may each stroke turn in the stretch? More where the width shows that they cross.
 _TURN_RAD = np.radians(30)
 _TURN_SEEN_RAD = np.radians(65)
+# Shorter stretches are one crossing whatever their arms say: thinning alone tears a right-angled one so far.
+_TORN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +56,7 @@ def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: f
         return None
     seen = line.length > _SEEN * width_px
     best = None
-    for order in ((0, 1), (1, 0)):
-        pairs = [(heads[0], tails[order[0]]), (heads[1], tails[order[1]])]
+    for pairs in _crossed(heads, tails):
         turns = [turn(a, b) for a, b in pairs]
         if max(turns) > _TURN_SEEN_RAD:
             continue
@@ -72,6 +73,26 @@ def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: f
     if len(crossings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
         return None
     return Explanation(strand, cost, pairs, crossings[0])
+
+
+def forks_apart(graph: StrandGraph, lines: dict[int, Line], width_px: float) -> set[int]:
+    """Short strands between two forks that are two joints: nothing crosses there."""
+    apart = set()
+    for strand, s in graph.strands.items():
+        if not graph.degree(s.start) == graph.degree(s.end) == 3 or s.start == s.end:
+            continue
+        if strand in lines and _TORN * width_px < lines[strand].length <= _LONGEST * width_px:
+            heads = _others(graph, lines, s.start, strand, width_px)
+            tails = _others(graph, lines, s.end, strand, width_px)
+            if len(heads) == len(tails) == 2 and not _crossed(heads, tails):
+                apart.add(strand)
+    return apart
+
+
+def _crossed(heads: list[Arm], tails: list[Arm]) -> list[list[tuple[Arm, Arm]]]:
+    """The ways to pair arms across a stretch in which no stroke makes a step to the side."""
+    ways = [[(heads[0], tails[k]), (heads[1], tails[1 - k])] for k in (0, 1)]
+    return [pairs for pairs in ways if not any(stepped(a, b) for a, b in pairs)]
 
 
 def _crossings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
