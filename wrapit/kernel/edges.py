@@ -118,7 +118,7 @@ def _edge(edge: Line | Arc | BSpline, z: float, start: Any, end: Any) -> Any:
         curve = spline_curve(edge, z)
         maker = BRepBuilderAPI_MakeEdge(curve, start, end, curve.FirstParameter(), curve.LastParameter())
     if not maker.IsDone():
-        raise KernelError(f"an edge of an outline can't be made ({maker.Error()})", _place(edge))
+        raise KernelError("an edge of an outline can't be made", _place(edge))
     return maker.Edge()
 
 
