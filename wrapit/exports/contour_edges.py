@@ -23,7 +23,7 @@ LONGEST_STEP_RAD = math.radians(60)
 
 
 def as_chain(edges: Sequence[Edge], *, closed: bool) -> BezierChain:
-    """The edges as one chain of Béziers without any gap; arcs are within 2.4e-6 mm or 1e-7 of their radius."""
+    """The edges as one chain of Béziers without any gap; arcs as cubics of `_step_rad`."""
     parts = [cubics_of(edge, _step_rad(edge)).points.copy() for edge in edges]
     for before, after in itertools.pairwise(parts):
         _join(before, after)

@@ -35,7 +35,7 @@ def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
 
 
 def loop_edges(loop: Loop, z: float = 0.0) -> list[Any]:
-    """The loop's edges at height z, sharing their vertices, in the loop's order; curves as few smooth runs."""
+    """The loop's edges at height z, sharing their vertices, in its order; curves as few smooth runs."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
     from OCP.gp import gp_Pnt
 

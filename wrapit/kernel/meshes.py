@@ -12,6 +12,7 @@ import numpy as np
 from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, IntArray
 
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """`corners` (n, 3) in mm, `triangles` (m, 3) counter-clockwise seen from outside."""
@@ -49,8 +50,6 @@ class Mesh:
 
 def mesh_of(solids: Iterable[Any], tolerance_mm: float, angle_rad: float) -> Mesh:
     """The solids' surface within the tolerance; KernelError if a face has no triangles or a gap remains."""
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.BRepTools import BRepTools
 
     meshes = [_solid_mesh(solid, tolerance_mm, angle_rad) for solid in solids]
     counts = np.cumsum([0] + [len(mesh.corners) for mesh in meshes])

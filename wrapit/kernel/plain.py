@@ -23,7 +23,7 @@ class Plain:
         self.places: list[str] = []
 
     def region(self, region: Region) -> Region:
-        """The region itself where the kernel finds its face sound, else its polygon; KernelError if it has none."""
+        """The region itself where its face is sound, else its polygon; KernelError if it has none."""
         if _sound(region):
             return region
         import shapely

@@ -17,7 +17,7 @@ from wrapit.geometry.polyline import steps
 # much nearer to a wire before they count as wrong.
 LEAST_MM = 1e-3
 # Which spans should not stay alone, and how near does one cubic follow two? Laser cutters slow down at each
-# joint. With the parallel's own 5e-5 mm this is still finer than any machine.
+# joint. With the parallel's own 2e-5 mm this is still finer than any machine.
 SHORT_MM, MERGED_MM = 0.05, 2e-5
 _PLACES = np.linspace(0, 1, 9)
 # What rounding leaves between ends that are one.
@@ -157,9 +157,11 @@ def _snapped(edges: Sequence[Edge]) -> list[Edge]:
             snapped.append(Line(start, end or edge.end))
         elif isinstance(edge, BezierChain):
             cubics = edge.points.copy()
-            cubics[0, :2] += np.array(start) - cubics[0, 0]
+            cubics[0, 1] += np.array(start) - cubics[0, 0]
+            cubics[0, 0] = start
             if end:
-                cubics[-1, 2:] += np.array(end) - cubics[-1, 3]
+                cubics[-1, 2] += np.array(end) - cubics[-1, 3]
+                cubics[-1, 3] = end
             snapped.append(BezierChain(cubics))
         else:
             snapped.append(edge)

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
-from wrapit.geometry.bezier import BezierChain
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.outlines.closing import closed_up
 from wrapit.geometry.outlines.handover import Run, meet
