@@ -6,6 +6,7 @@ Words behind a name that name no benchmark are its own: `python -m tests.bench i
 from __future__ import annotations
 
 import importlib
+import inspect
 import pkgutil
 import sys
 
@@ -19,22 +20,21 @@ def main() -> None:
         if not info.name.startswith("_")
         and hasattr(importlib.import_module(f"tests.bench.{info.name}"), "main")
     ]
+    # A benchmark that takes words has them behind its name.
+    mains = {area: importlib.import_module(f"tests.bench.{area}").main for area in areas}
+    takes = {area for area, run in mains.items() if inspect.signature(run).parameters}
     named: dict[str, list[str]] = {}
     for word in sys.argv[1:] or areas:
         if word in areas:
             named[word] = []
-        elif named and [*named][-1] in TAKE_WORDS:
+        elif named and [*named][-1] in takes:
             named[[*named][-1]].append(word)
         else:
             sys.exit(f"no benchmark named {word}; there are {', '.join(areas)}")
     for area, words in named.items():
         print(f"\n== {area} ==", flush=True)
-        run = importlib.import_module(f"tests.bench.{area}").main
-        run(words) if area in TAKE_WORDS else run()
+        mains[area](words) if area in takes else mains[area]()
 
-
-# The benchmarks whose `main` takes words: names of drawings, kinds of cases, folders.
-TAKE_WORDS = ("drawing", "cases", "hard_edges", "icons")
 
 if __name__ == "__main__":
     main()

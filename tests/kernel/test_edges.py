@@ -16,13 +16,14 @@ from wrapit.geometry import Arc, BezierChain, BSpline, Line, Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2
 from wrapit.kernel.edges import edge_start, loop_edges, region_face, spline_curve, turned, wire_of
 from wrapit.kernel.measures import is_valid
+from wrapit.kernel.terraces import VOLUME_TOLERANCE
 
 LENGTHS = st.floats(0.1, 100)
 
 
 def test_faces_of_splines_have_the_right_area() -> None:
     face = region_face(Region(Loop((circle(7, (3.0, 1.0)),))))
-    assert abs(_area(face)) == pytest.approx(49 * math.pi, rel=1e-9)
+    assert abs(_area(face)) == pytest.approx(49 * math.pi, rel=VOLUME_TOLERANCE)
 
 
 @pytest.mark.parametrize("at_start", [True, False])

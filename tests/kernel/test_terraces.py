@@ -54,3 +54,14 @@ def test_overlapping_terraces_are_refused() -> None:
     overlapping = [Terrace(Region(box(2, 2, 6, 6)), 5.0), Terrace(Region(box(4, 4, 8, 8)), 5.0)]
     with pytest.raises(KernelError):
         terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, overlapping, [], "jig")
+
+
+def test_an_outline_that_folds_back_becomes_a_polygon_and_says_so() -> None:
+    # Past its corner by 0.4 mm and back, crossing itself: no kernel finds a face in it.
+    corners = [(2, 2), (8.4, 2.0), (7.9, 2.05), (8.0, 1.95), (8, 8), (2, 8)]
+    edges = zip(corners, corners[1:] + corners[:1], strict=True)
+    wall = Terrace(Region(Loop(tuple(Line(a, b) for a, b in edges))), 5.0)
+    made = terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, [wall], [], "jig")
+    assert is_valid(made.solid)
+    assert made.plain == ("(2.0, 2.0) mm",)
+    assert made.volume_mm3 == pytest.approx(200 + 3 * 36, abs=0.5)

@@ -16,11 +16,15 @@ from wrapit.geometry.outlines.loops import point_of
 LARGEST_GAP_MM = 1e-3
 # Arcs of at most this sweep differ from their cubic by less than 1e-7 of the radius.
 ARC_STEP_RAD = math.radians(22.5)
+# Those about the corners that the kerf rounds, 0.1 mm in radius, get longer pieces: of the first angle they
+# were 290 of the 305 spans under 0.05 mm of the butterfly's walls. At 60° they stray by 2.4e-6 mm.
+LEAST_PIECE_MM = 0.1
+LONGEST_STEP_RAD = math.radians(60)
 
 
 def as_chain(edges: Sequence[Edge], *, closed: bool) -> BezierChain:
-    """The edges as one chain of Béziers without any gap; arcs are within 1e-7 of their radius."""
-    parts = [cubics_of(edge, ARC_STEP_RAD).points.copy() for edge in edges]
+    """The edges as one chain of Béziers without any gap; arcs as cubics of `_step_rad`."""
+    parts = [cubics_of(edge, _step_rad(edge)).points.copy() for edge in edges]
     for before, after in itertools.pairwise(parts):
         _join(before, after)
     if closed:
@@ -49,6 +53,13 @@ def as_bulges(edges: Sequence[Edge], *, closed: bool) -> list[tuple[float, float
     if not closed:
         vertices.append((*point_of(edges[-1].end), 0.0))
     return vertices
+
+
+def _step_rad(edge: Edge) -> float:
+    """How far the cubics of an edge may turn, if it is an arc."""
+    if not isinstance(edge, Arc):
+        return ARC_STEP_RAD
+    return min(LONGEST_STEP_RAD, max(ARC_STEP_RAD, LEAST_PIECE_MM / edge.radius_mm))
 
 
 def _join(before: FloatArray, after: FloatArray) -> None:

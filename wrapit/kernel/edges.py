@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -10,18 +9,10 @@ from typing import Any
 import numpy as np
 
 from wrapit.errors import KernelError
-from wrapit.geometry import Arc, BezierChain, BSpline, Edge, FloatArray, Line, Loop, Region, from_chain
+from wrapit.geometry import Arc, BezierChain, BSpline, Edge, FloatArray, Line, Loop, Region
+from wrapit.geometry.outlines.loops import point_of
 from wrapit.geometry.outlines.polygons import loop_area_mm2
-from wrapit.geometry.polyline import steps
-
-# How many spans may an edge have? OCCT (and every program on it) integrates areas and volumes along an edge
-# with few points however many spans it has: long splines made a jig's volume wrong by up to 1.4e-3. Over
-# edges of one span it is exact.
-MAX_SPANS = 1
-# Which cubics are too short for an edge? The kernel takes points within 1e-7 for one, and edges of no length
-# broke meshes. From 1e-8 to 1e-4 the jigs of butterfly, leaf and bee come out the same: only odd outlines
-# have any.
-SLIVER_MM = 1e-6
+from wrapit.kernel.runs import between_corners, smooth_runs
 
 
 def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
@@ -44,12 +35,12 @@ def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
 
 
 def loop_edges(loop: Loop, z: float = 0.0) -> list[Any]:
-    """The loop's edges at height z, sharing their vertices, in the loop's order; long splines in several."""
+    """The loop's edges at height z, sharing their vertices, in its order; curves as few smooth runs."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
     from OCP.gp import gp_Pnt
 
-    edges = [part for edge in loop.edges for part in _short(edge)]
-    starts = [edge_start(edge) for edge in edges]
+    edges = [part for edge in loop.edges for part in _parts(edge)]
+    starts = [_start(edge) for edge in edges]
     vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, z)).Vertex() for x, y in starts]
     return [
         _edge(edge, z, vertices[index], vertices[(index + 1) % len(vertices)])
@@ -101,24 +92,11 @@ def edge_start(edge: Edge) -> tuple[float, float]:
     return (float(edge.start[0]), float(edge.start[1]))
 
 
-def _short(edge: Edge) -> list[Edge]:
-    if not isinstance(edge, BezierChain) or len(edge) <= MAX_SPANS:
+def _parts(edge: Edge) -> list[Line | Arc | BSpline]:
+    """What becomes of an edge of an outline: curves as smooth runs, divided at corners."""
+    if not isinstance(edge, BezierChain):
         return [edge]
-    points = _without_slivers(edge.points)
-    count = -(-len(points) // MAX_SPANS)
-    cuts = np.linspace(0, len(points), count + 1).round().astype(int)
-    return [BezierChain(points[a:b]) for a, b in itertools.pairwise(cuts)]
-
-
-def _without_slivers(points: FloatArray) -> FloatArray:
-    """The cubics (n, 4, 2) less those too short for an edge of their own; the ends stay where they are."""
-    long = steps(points).sum(axis=1) > SLIVER_MM
-    if long.all() or not long.any():
-        return points
-    kept = points[long].copy()
-    kept[1:, 0] = kept[:-1, 3]
-    kept[0, 0], kept[-1, 3] = points[0, 0], points[-1, 3]
-    return kept
+    return [run for smooth in between_corners(edge.points) for run in smooth_runs(smooth)]
 
 
 def _backwards(edge: Edge) -> Edge:
@@ -129,7 +107,7 @@ def _backwards(edge: Edge) -> Edge:
     return edge.reversed()
 
 
-def _edge(edge: Edge, z: float, start: Any, end: Any) -> Any:
+def _edge(edge: Line | Arc | BSpline, z: float, start: Any, end: Any) -> Any:
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
 
     if isinstance(edge, Line):
@@ -137,10 +115,10 @@ def _edge(edge: Edge, z: float, start: Any, end: Any) -> Any:
     elif isinstance(edge, Arc):
         maker = BRepBuilderAPI_MakeEdge(_circle(edge, z), start, end, 0.0, abs(edge.sweep_rad))
     else:
-        curve = spline_curve(from_chain(edge), z)
+        curve = spline_curve(edge, z)
         maker = BRepBuilderAPI_MakeEdge(curve, start, end, curve.FirstParameter(), curve.LastParameter())
     if not maker.IsDone():
-        raise KernelError(f"an edge of an outline can't be made ({maker.Error()})", _place(edge))
+        raise KernelError("an edge of an outline can't be made", _place(edge))
     return maker.Edge()
 
 
@@ -158,6 +136,10 @@ def _circle(arc: Arc, z: float) -> Any:
     return Geom_Circle(axes, arc.radius_mm)
 
 
-def _place(edge: Edge) -> str:
-    x, y = edge_start(edge)
+def _start(edge: Line | Arc | BSpline) -> tuple[float, float]:
+    return point_of(edge.poles[0]) if isinstance(edge, BSpline) else edge.start
+
+
+def _place(edge: Line | Arc | BSpline) -> str:
+    x, y = _start(edge)
     return f"at ({x:.2f}, {y:.2f}) mm"

@@ -24,8 +24,8 @@ def guarded(doing: str, where: str) -> Iterator[None]:
     except Exception as failure:
         if not _of_the_kernel(failure):
             raise
-        reason = " ".join(str(failure).split()) or type(failure).__name__
-        raise KernelError(f"{doing} failed ({reason})", where, REMEDY) from failure
+        # What the kernel says is in its own words, or in French: it stays with the cause.
+        raise KernelError(f"{doing} failed", where, REMEDY) from failure
 
 
 def _of_the_kernel(failure: Exception) -> bool:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, IntArray
-
-# From which distance on are two corners two? Faces on one edge place its corners alike but for rounding. From
-# 1e-6 to 1e-4 the meshes of four jigs have the same 104 144 triangles.
-GRID_MM = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,70 +29,140 @@ class Mesh:
     @property
     def open_edges(self) -> int:
         """Edges that don't have exactly one triangle on each side; 0 for a watertight mesh."""
+        return len(self._gaps)
+
+    def place_of_gap(self) -> str:
+        """Where the first open edge is, for a person."""
+        x, y, z = self.corners[self._gaps[0] // len(self.corners)]
+        return f"at ({x:.2f}, {y:.2f}, {z:.2f}) mm"
+
+    @cached_property
+    def _gaps(self) -> IntArray:
+        """The open edges, each as first corner times number of corners plus second corner."""
         ends = np.concatenate(
             [self.triangles[:, [0, 1]], self.triangles[:, [1, 2]], self.triangles[:, [2, 0]]]
         )
-        forward = ends[:, 0] * len(self.corners) + ends[:, 1]
-        backward = ends[:, 1] * len(self.corners) + ends[:, 0]
-        doubled = len(forward) - len(np.unique(forward))
-        return int((~np.isin(forward, backward)).sum()) + doubled
+        forward, times = np.unique(ends[:, 0] * len(self.corners) + ends[:, 1], return_counts=True)
+        first, second = np.divmod(forward, len(self.corners))
+        alone = ~np.isin(forward, second * len(self.corners) + first)
+        return np.concatenate([forward[alone], np.repeat(forward, times - 1)])
 
 
 def mesh_of(solids: Iterable[Any], tolerance_mm: float, angle_rad: float) -> Mesh:
     """The solids' surface within the tolerance; KernelError if a face has no triangles or a gap remains."""
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.BRepTools import BRepTools
 
-    corners, triangles, count = [], [], 0
-    for solid in solids:
-        BRepTools.Clean_s(solid)
-        BRepMesh_IncrementalMesh(solid, tolerance_mm, False, angle_rad, True)
-        for face_corners, face_triangles in _face_meshes(solid):
-            corners.append(face_corners)
-            triangles.append(face_triangles + count)
-            count += len(face_corners)
-        BRepTools.Clean_s(solid)
-    mesh = _welded(np.concatenate(corners), np.concatenate(triangles))
+    meshes = [_solid_mesh(solid, tolerance_mm, angle_rad) for solid in solids]
+    counts = np.cumsum([0] + [len(mesh.corners) for mesh in meshes])
+    mesh = Mesh(
+        np.concatenate([mesh.corners for mesh in meshes]),
+        np.concatenate([mesh.triangles + count for mesh, count in zip(meshes, counts, strict=False)]),
+    )
     if mesh.open_edges:
         raise KernelError(
             f"the solid's triangles leave {mesh.open_edges} open edges",
-            "",
+            mesh.place_of_gap(),
             "take stl and 3mf out of `outputs` and print from the STEP file, or make the piece 1 mm larger",
         )
     return mesh
 
 
-def _face_meshes(solid: Any) -> Iterable[tuple[FloatArray, IntArray]]:
-    from OCP.BRep import BRep_Tool
-    from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED
+def _solid_mesh(solid: Any, tolerance_mm: float, angle_rad: float) -> Mesh:
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.BRepTools import BRepTools
+
+    BRepTools.Clean_s(solid)
+    BRepMesh_IncrementalMesh(solid, tolerance_mm, False, angle_rad, True)
+    corners = _Corners(solid)
+    triangles = [_face_triangles(face, corners) for face in _faces(solid)]
+    BRepTools.Clean_s(solid)
+    found = np.concatenate(triangles)
+    a, b, c = found.T
+    return Mesh(np.array(corners.points), found[(a != b) & (b != c) & (c != a)])
+
+
+class _Corners:
+    """Numbers the corners of a solid's faces: those on a shared edge or vertex once, whatever their place."""
+
+    def __init__(self, solid: Any) -> None:
+        from OCP.TopAbs import TopAbs_EDGE, TopAbs_VERTEX
+        from OCP.TopExp import TopExp
+        from OCP.TopTools import TopTools_IndexedMapOfShape
+
+        self.points: list[tuple[float, float, float]] = []
+        self._known: dict[tuple[str, int, int], int] = {}
+        self._edges, self._vertices = TopTools_IndexedMapOfShape(), TopTools_IndexedMapOfShape()
+        TopExp.MapShapes_s(solid, TopAbs_EDGE, self._edges)
+        TopExp.MapShapes_s(solid, TopAbs_VERTEX, self._vertices)
+
+    def of_face(self, face: Any, mesh: Any, location: Any) -> IntArray:
+        """The numbers of the face's nodes, in their order."""
+        from OCP.BRep import BRep_Tool
+        from OCP.TopAbs import TopAbs_EDGE
+        from OCP.TopExp import TopExp_Explorer
+        from OCP.TopoDS import TopoDS
+
+        names: dict[int, tuple[str, int, int]] = {}
+        explorer = TopExp_Explorer(face, TopAbs_EDGE)
+        while explorer.More():
+            edge = TopoDS.Edge_s(explorer.Current())
+            polygon = BRep_Tool.PolygonOnTriangulation_s(edge, mesh, location)
+            if polygon is not None:
+                names.update(self._names(edge, polygon))
+            explorer.Next()
+        move = location.Transformation()
+        return np.array(
+            [
+                self._number(names.get(node), mesh.Node(node).Transformed(move))
+                for node in range(1, mesh.NbNodes() + 1)
+            ],
+            dtype=np.int64,
+        )
+
+    def _names(self, edge: Any, polygon: Any) -> dict[int, tuple[str, int, int]]:
+        """For the face's nodes on an edge: their vertex, or the edge and their place along it."""
+        from OCP.TopAbs import TopAbs_FORWARD
+        from OCP.TopExp import TopExp
+        from OCP.TopoDS import TopoDS
+
+        forward = TopoDS.Edge_s(edge.Oriented(TopAbs_FORWARD))
+        index, count = self._edges.FindIndex(edge), polygon.NbNodes()
+        names = {polygon.Node(k): ("edge", index, k) for k in range(2, count)}
+        names[polygon.Node(1)] = ("vertex", self._vertices.FindIndex(TopExp.FirstVertex_s(forward)), 0)
+        names[polygon.Node(count)] = ("vertex", self._vertices.FindIndex(TopExp.LastVertex_s(forward)), 0)
+        return names
+
+    def _number(self, name: tuple[str, int, int] | None, point: Any) -> int:
+        if name is not None and name in self._known:
+            return self._known[name]
+        number = len(self.points)
+        self.points.append((point.X(), point.Y(), point.Z()))
+        if name is not None:
+            self._known[name] = number
+        return number
+
+
+def _faces(solid: Any) -> Iterable[Any]:
+    from OCP.TopAbs import TopAbs_FACE
     from OCP.TopExp import TopExp_Explorer
-    from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
     explorer = TopExp_Explorer(solid, TopAbs_FACE)
     while explorer.More():
-        face = TopoDS.Face_s(explorer.Current())
-        location = TopLoc_Location()
-        mesh = BRep_Tool.Triangulation_s(face, location)
-        if mesh is None:
-            raise KernelError("a face can't be divided into triangles")
-        move = location.Transformation()
-        nodes = [mesh.Node(i).Transformed(move) for i in range(1, mesh.NbNodes() + 1)]
-        order = (1, 3, 2) if face.Orientation() == TopAbs_REVERSED else (1, 2, 3)
-        facets = [mesh.Triangle(i) for i in range(1, mesh.NbTriangles() + 1)]
-        yield (
-            np.array([(p.X(), p.Y(), p.Z()) for p in nodes]),
-            np.array([[facet.Value(k) - 1 for k in order] for facet in facets], dtype=np.int64).reshape(
-                -1, 3
-            ),
-        )
+        yield TopoDS.Face_s(explorer.Current())
         explorer.Next()
 
 
-def _welded(corners: FloatArray, triangles: IntArray) -> Mesh:
-    cells = np.round(corners / GRID_MM).astype(np.int64)
-    kept, index = np.unique(cells, axis=0, return_inverse=True)
-    triangles = index.reshape(-1)[triangles]
-    a, b, c = triangles.T
-    whole = (a != b) & (b != c) & (c != a)
-    return Mesh((kept * GRID_MM).astype(np.float64), triangles[whole])
+def _face_triangles(face: Any, corners: _Corners) -> IntArray:
+    from OCP.BRep import BRep_Tool
+    from OCP.TopAbs import TopAbs_REVERSED
+    from OCP.TopLoc import TopLoc_Location
+
+    location = TopLoc_Location()
+    mesh = BRep_Tool.Triangulation_s(face, location)
+    if mesh is None:
+        raise KernelError("a face can't be divided into triangles")
+    numbers = corners.of_face(face, mesh, location)
+    order = (1, 3, 2) if face.Orientation() == TopAbs_REVERSED else (1, 2, 3)
+    facets = [mesh.Triangle(i) for i in range(1, mesh.NbTriangles() + 1)]
+    found = np.array([[facet.Value(k) - 1 for k in order] for facet in facets], dtype=np.int64)
+    return numbers[found.reshape(-1, 3)]

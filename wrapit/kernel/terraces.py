@@ -14,8 +14,9 @@ from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
 from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
-from wrapit.kernel.guard import guarded
+from wrapit.kernel.guard import REMEDY, guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
+from wrapit.kernel.plain import Plain
 
 # How finely are outlines sampled to tell what lies inside of what? They don't touch, so that roughly is
 # enough: from 0.001 to 0.1 the jigs of butterfly, leaf and bee come out the same.
@@ -39,10 +40,11 @@ class Terrace:
 
 @dataclass(frozen=True, eq=False)
 class Terraced:
-    """The solid and its volume as the kernel measures it."""
+    """The solid and its volume as the kernel measures it; places of outlines that had to become polygons."""
 
     solid: Any
     volume_mm3: float
+    plain: tuple[str, ...] = ()
 
 
 def terraced_solid(
@@ -55,9 +57,37 @@ def terraced_solid(
 ) -> Terraced:
     """The solid between bottom and top inside the outline, with terraces and holes that don't touch.
 
-    Raises KernelError naming `where` if the outcome is not one valid solid with the volume that the
-    outlines have by calculation.
+    Where that fails, outlines that bound no sound face become polygons of short lines, and `plain` names
+    their places. Raises KernelError naming `where` if even then the outcome is not one valid solid with the
+    volume that the outlines have by calculation.
     """
+    try:
+        return _proven(outline, bottom_mm, top_mm, terraces, through, where)
+    except KernelError:
+        plain = Plain()
+        with guarded("building the solid", where):
+            rim = plain.region(Region(outline)).outer
+            holes = [plain.region(Region(hole)).outer for hole in through]
+            raised = [_made_plain(terrace, plain) for terrace in terraces]
+        if not plain.places:
+            raise
+        made = _proven(rim, bottom_mm, top_mm, raised, holes, where)
+        return Terraced(made.solid, made.volume_mm3, tuple(plain.places))
+
+
+def _made_plain(terrace: Terrace, plain: Plain) -> Terrace:
+    upon = tuple(_made_plain(each, plain) for each in terrace.upon)
+    return Terrace(plain.region(terrace.region), terrace.z_mm, upon)
+
+
+def _proven(
+    outline: Loop,
+    bottom_mm: float,
+    top_mm: float,
+    terraces: Sequence[Terrace],
+    through: Sequence[Loop],
+    where: str,
+) -> Terraced:
     with guarded("building the solid", where):
         solid = _solid(outline, bottom_mm, top_mm, terraces, through)
         expected = terraced_volume_mm3(outline, bottom_mm, top_mm, terraces, through)
@@ -65,13 +95,9 @@ def terraced_solid(
         if got < 0:  # the shell came out facing inwards
             solid, got = solid.Reversed(), -got
         if not is_valid(solid):
-            raise KernelError("the solid is not valid", where, "change the size or the clearance a little")
+            raise KernelError("the solid is not valid", where, REMEDY)
         if abs(got - expected) > VOLUME_TOLERANCE * expected:
-            raise KernelError(
-                f"the solid has {got:.2f} mm³ instead of {expected:.2f} mm³",
-                where,
-                "change the size or the clearance a little",
-            )
+            raise KernelError(f"the solid has {got:.2f} mm³ instead of {expected:.2f} mm³", where, REMEDY)
     return Terraced(solid, got)
 
 

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from wrapit.geometry.arrays import FloatArray
-from wrapit.geometry.bezier import BezierChain
 from wrapit.geometry.curveset import CurveSet
+from wrapit.geometry.outlines.closing import closed_up
 from wrapit.geometry.outlines.handover import Run, meet
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, Loop, Region, as_chain, point_of
 from wrapit.geometry.outlines.parallels import Parallel, Round, Side
@@ -69,7 +69,7 @@ class Outliner:
             edges += self._edges(run, start.place, finish.place, start.point, finish.point)
             if ends[index].bridged:
                 edges.append(Line(point_of(finish.point), point_of(ends[index].entering.point)))
-        return Loop(tuple(_snapped(edges)))
+        return Loop(tuple(closed_up(edges)))
 
     def _runs(self, points: FloatArray) -> tuple[list[Run], bool]:
         """The ring's runs in order, and whether it is one run without beginning or end."""
@@ -105,10 +105,10 @@ class Outliner:
         if run.parallel is None:
             half = int(np.linalg.norm(run.points - run.points[0], axis=1).argmax())
             back = np.concatenate([run.points[half:], run.points[:1]])
-            return _snapped(self._free(run.points[: half + 1]) + self._free(back))
+            return closed_up(self._free(run.points[: half + 1]) + self._free(back))
         start, end = float(run.place[0]), float(run.place[-1])
         ends = run.parallel.at(np.array([start, end]))[0]
-        return _snapped([run.parallel.between(start, end), Line(point_of(ends[1]), point_of(ends[0]))])
+        return closed_up([run.parallel.between(start, end), Line(point_of(ends[1]), point_of(ends[0]))])
 
     def _edges(self, run: Run, start: float, end: float, first: FloatArray, last: FloatArray) -> list[Edge]:
         if run.parallel is None:
@@ -202,36 +202,6 @@ def _jumps(
 
 def _unwrapped(name: int, place: FloatArray, parallels: dict[int, Parallel]) -> FloatArray:
     return np.unwrap(place) if isinstance(parallels.get(int(name)), Round) else place
-
-
-def _snapped(edges: list[Edge]) -> list[Edge]:
-    """The edges with each one's start put exactly on the end of the one before (they differ by rounding)."""
-    snapped: list[Edge] = []
-    for index, edge in enumerate(edges):
-        before, after = edges[index - 1], edges[(index + 1) % len(edges)]
-        start = _arc_point(before, last=True) or (edge.start if isinstance(edge, Arc) else _end(before))
-        end = _arc_point(after, last=False)
-        if isinstance(edge, Line):
-            snapped.append(Line(start, end or edge.end))
-        elif isinstance(edge, BezierChain):
-            cubics = edge.points.copy()
-            cubics[0, :2] += np.array(start) - cubics[0, 0]
-            if end:
-                cubics[-1, 2:] += np.array(end) - cubics[-1, 3]
-            snapped.append(BezierChain(cubics))
-        else:
-            snapped.append(edge)
-    return snapped
-
-
-def _arc_point(edge: Edge, *, last: bool) -> tuple[float, float] | None:
-    if not isinstance(edge, Arc):
-        return None
-    return edge.end if last else edge.start
-
-
-def _end(edge: Edge) -> tuple[float, float]:
-    return point_of(edge.end) if isinstance(edge, BezierChain) else edge.end
 
 
 def _without_needless(points: FloatArray) -> FloatArray:

@@ -44,7 +44,10 @@ def number_polygon(number: int, height_mm: float, stroke_mm: float) -> Any:
         for index, digit in enumerate(str(number))
         for stroke in _STROKES[digit]
     ]
-    inked = shapely.union_all(shapely.buffer(lines, stroke_mm / 2, quad_segs=3))
+    # Square ends and mitred bends: a third of the sides that round ones need, and as easy to read.
+    inked = shapely.union_all(
+        shapely.buffer(lines, stroke_mm / 2, cap_style="square", join_style="mitre", mitre_limit=2.0)
+    )
     x0, y0, x1, y1 = inked.bounds
     return shapely.affinity.translate(inked, -(x0 + x1) / 2, -(y0 + y1) / 2)
 

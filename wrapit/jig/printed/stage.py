@@ -24,13 +24,15 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     """
     planned, findings = plan_jigs(wires, config)
     refuse_unheld((one for jig in planned for one in jig.held), config)
-    jigs = tuple(_built(part, config) for part in planned)
+    built = [_built(part, config) for part in planned]
+    jigs = tuple(jig for jig, _ in built)
+    findings += tuple(finding for _, plain in built for finding in plain)
     return JigSet(
         "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"
     ), findings
 
 
-def _built(part: PlannedJig, config: JigConfig) -> Jig:
+def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...]]:
     gap = _checked_gap(part, config)
     made = jig_solid(part.plan, part.walls, config)
     from wrapit.kernel.measures import count_solids, size_mm
@@ -38,7 +40,7 @@ def _built(part: PlannedJig, config: JigConfig) -> Jig:
     plan = part.plan
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
     openings += [seat.pocket for seat in plan.seats]
-    return Jig(
+    jig = Jig(
         name=plan.name,
         wires=plan.wires,
         part=Part(plan.name, made.solid, COLOUR),
@@ -51,6 +53,17 @@ def _built(part: PlannedJig, config: JigConfig) -> Jig:
         support=part.support,
         min_wall_to_wire_mm=gap,
         size_mm=size_mm(made.solid),
+    )
+    return jig, tuple(_plain_outline(plan.name, place) for place in made.plain)
+
+
+def _plain_outline(jig: str, place: str) -> Finding:
+    return Finding(
+        "warning",
+        "plain-outline",
+        f"{jig} at {place}",
+        "an outline has no sound exact face, so its sides are short straight lines, within 0.001 mm",
+        "nothing needs to be done; a piece 1 mm larger may have an exact one",
     )
 
 
