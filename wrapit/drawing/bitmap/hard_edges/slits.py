@@ -25,8 +25,12 @@ _ONE_STROKE = 0.75
 _FEWEST = 4
 # A slit is as long as the stroke is broad, and longer where it is slanted; a line between strokes is longer.
 _LONGEST = 1.6
-# The widths that are tried, in pixels: strokes broader than 50 px are few.
-_SLITS_PX = (1, 2, 3, 4, 6, 8, 11)
+# How long are white runs along rows and columns at most that a quick look counts, in widths? Slits make strokes
+# look thinner by a third at most. And how many runs has the shortest slit that reaches deep enough?
+_QUICK = 1.5 * _WIDEST
+_RUNS = 3
+# No slit is wider, in pixels: strokes broader than 50 px are few.
+_WIDEST_PX = 11
 # How dark is full ink, as a share of the contrast? JPEG and scans vary by less.
 _FULL_INK = 0.3
 
@@ -37,11 +41,17 @@ def without_slits(ink: Ink) -> Ink:
     """The ink with the slits across its strokes closed; the same where it has none."""
     # Antialiased slits are grey, and only the middle of a stroke is all ink.
     full = ink.grey < ink.ink + _FULL_INK * (ink.paper - ink.ink)
+    thin_px = _stroke_px(full)
+    longest = max(2, int(np.ceil(_QUICK * thin_px)))
+    if _short_runs(full, longest) < _FEWEST * max(_RUNS, _DEEP * thin_px):
+        return ink
     fitting = _widest_that_fits(full)
     if fitting is None:
         return ink
     closed, width_px = fitting
     found = closed & ~full
+    if np.count_nonzero(found & ~ink.mask) < _FEWEST:
+        return ink
     inside = found & _shrunk(closed, 2 * int(_DEEP * width_px) + 1)
     if np.count_nonzero(inside & ~ink.mask) < _FEWEST:
         return ink
@@ -53,19 +63,28 @@ def without_slits(ink: Ink) -> Ink:
     return replace(ink, mask=ink.mask | slits, grey=grey)
 
 
+def _short_runs(mask: Mask, longest: int) -> int:
+    """How many runs of paper between ink are no longer than that, along rows and columns."""
+    count = 0
+    for picture in (mask, mask.T):
+        edges = np.flatnonzero(np.diff(picture.ravel()))
+        # Runs alternate; those round the end of a row are few.
+        between = np.diff(edges)
+        first = 0 if picture.flat[0] else 1
+        count += int(np.count_nonzero(between[first::2] <= longest))
+    return count
+
+
 def _widest_that_fits(mask: Mask) -> tuple[Mask, float] | None:
     """The ink with the widest slits closed that its strokes, so closed, allow; and their width in pixels.
 
-    Slits make strokes look thin, so the width can't be measured first.
+    Slits make strokes look thin, so closing them may allow wider ones.
     """
-    fitting = None
-    for widest in _SLITS_PX:
+    fitting, width_px, closed_px = None, _stroke_px(mask), 0
+    while closed_px < (widest := int(min(_WIDEST * width_px, _WIDEST_PX))):
         closed = _closed(mask, widest)
-        width_px = _stroke_px(closed)
-        if widest <= _WIDEST * width_px:
-            fitting = closed, width_px
-        elif widest >= 3:
-            break
+        width_px, closed_px = _stroke_px(closed), widest
+        fitting = closed, width_px
     return fitting
 
 

@@ -17,7 +17,7 @@ BoolCells = NDArray[np.bool_]
 # How many cells has the longer side? A scan's dark edge of one per cent is then five cells broad.
 _CELLS = 480
 # Below this grey level there is no telling how much darker one place is than another.
-_BLACK = 8.0
+_BLACK = np.uint8(8)
 # What is ink, seen from afar? Darker than this share of the paper around it: thin lines are pale in cells
 # broader than they are, and paper's own grain, averaged over a cell, keeps above .9.
 _INK = 0.75
@@ -52,12 +52,13 @@ def cells_of(grey: GreyImage) -> Cells:
     from scipy.ndimage import maximum_filter, minimum_filter
 
     step = max(1, -(-max(grey.shape) // _CELLS))
-    small = Image.fromarray(np.ascontiguousarray(grey)).reduce(step)
-    level = np.maximum(np.asarray(small, dtype=np.float32), _BLACK)
+    small = np.maximum(np.asarray(Image.fromarray(np.ascontiguousarray(grey)).reduce(step)), _BLACK)
+    level = small.astype(np.float32)
     stroke = _stroke(level)
     look = int(max(_LEAST_LOOK, np.ceil(_PAST_STROKES * stroke))) | 1
-    paper = minimum_filter(maximum_filter(level, look, mode="nearest"), look, mode="nearest")
-    return Cells(level, paper, step, stroke, look)
+    # Filters take a quarter of the time on bytes.
+    paper = minimum_filter(maximum_filter(small, look, mode="nearest"), look, mode="nearest")
+    return Cells(level, paper.astype(np.float32), step, stroke, look)
 
 
 def painted(grey: GreyImage, cells: Cells, where: BoolCells) -> GreyImage:
@@ -109,10 +110,12 @@ def _stroke(level: NDArray[np.float32]) -> float:
     dark = level < _INK * np.median(level)
     runs = []
     for picture in (dark, dark.T):
-        edges = np.diff(np.pad(picture, ((0, 0), (1, 1))).astype(np.int8), axis=1)
-        first, last = np.nonzero(edges == 1), np.nonzero(edges == -1)
+        padded = np.pad(picture, ((0, 0), (1, 1)))
+        changes = np.flatnonzero(np.diff(padded.ravel()))
+        first, last = changes[::2], changes[1::2]
         # Runs that touch the picture's side are no strokes.
-        free = (first[1] > 0) & (last[1] < picture.shape[1])
-        runs.append((last[1] - first[1])[free])
+        width = padded.shape[1]
+        free = (first % width > 0) & (last % width < width - 2)
+        runs.append((last - first)[free])
     lengths = np.concatenate(runs)
     return float(np.median(lengths)) if len(lengths) else 1.0

@@ -54,9 +54,12 @@ def find_edges(cells: Cells) -> Edges:
     rest = ink & ~edges & ~holes
     if not _is_large(rest):
         edges[:], holes[:] = False, False
-    # The edge's own blur; nothing of the drawing is nearer than that, or it would be one piece with it.
-    grown = binary_dilation(edges, np.ones((3, 3)), iterations=2) & ~rest
-    return Edges(grown, binary_dilation(holes, np.ones((3, 3)), iterations=2) & ~rest, run_into)
+
+    def grown(cut: BoolCells) -> BoolCells:
+        """With its own blur; nothing of the drawing is nearer than that, or it would be one piece with it."""
+        return binary_dilation(cut, np.ones((3, 3)), iterations=2) & ~rest if cut.any() else cut
+
+    return Edges(grown(edges), grown(holes), run_into)
 
 
 def _is_large(ink: BoolCells) -> bool:
