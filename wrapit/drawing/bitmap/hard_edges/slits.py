@@ -25,7 +25,7 @@ _ONE_STROKE = 0.75
 _FEWEST = 4
 # A slit is as long as the stroke is broad, and longer where it is slanted; a line between strokes is longer.
 _LONGEST = 1.6
-# How long are white runs along rows and columns at most that a quick look counts, in widths? Slits make strokes
+# How long are the white runs along rows and columns that a quick look counts, in widths? Slits make strokes
 # look thinner by a third at most. And how many runs has the shortest slit that reaches deep enough?
 _QUICK = 1.5 * _WIDEST
 _RUNS = 3
