@@ -103,14 +103,15 @@ def build(
     return run(Path(config), target, overrides, until, force, alternatives)
 
 
-def check(config: str | PathLike[str], overrides: Sequence[str] = ()) -> Build:
+def check(config: str | PathLike[str], overrides: Sequence[str] = (), *, exact: bool = False) -> Build:
     """Finds what a build would find and writes nothing, as `wrapit check` does.
 
-    To be called as `build` is, and raises what it raises.
+    With `exact` the kernel also cuts the finished jig with each wire, which takes some seconds a wire. To be
+    called as `build` is, and raises what it raises.
     """
     from wrapit.pipeline.build import check as run
 
-    return run(Path(config), overrides)
+    return run(Path(config), overrides, exact=exact)
 
 
 def _usual() -> Config:

@@ -139,11 +139,15 @@ def check(
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = 0,
+    exact: Annotated[
+        bool,
+        typer.Option("--exact", help="Also cut the jig with each wire: proof that they don't touch."),
+    ] = False,
 ) -> None:
     """Say whether a piece can be made, and what to change; writes nothing."""
     from wrapit.pipeline.build import check as run
 
-    result = _with_progress(lambda progress: run(config, overrides or (), progress), quiet or as_json)
+    result = _with_progress(lambda progress: run(config, overrides or (), progress, exact), quiet or as_json)
     _show(result, as_json, quiet, verbose)
 
 

@@ -72,13 +72,15 @@ class JigMaker:
 
     `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
     made, UnheldError where it would hold too little. `held` is the share of the turns and long stretches that
-    it would hold, planned only. `solid` says that its parts are kernel solids.
+    it would hold, planned only. `solid` says that its parts are kernel solids; `judge` looks at those once
+    more, by other means, and raises KernelError where jig and wires have anything in common.
     """
 
     kind: JigKind
     solid: bool
     make: Callable[[Wires, Config], Made]
     held: Callable[[Wires, Config], float]
+    judge: Callable[[Made, Wires, Config], Made] | None = None
 
 
 def reported(value: float) -> float:

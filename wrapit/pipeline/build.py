@@ -72,12 +72,19 @@ def build(
     return Build(work.report, work.timings_s, target, sources, until)
 
 
-def check(config_path: Path, overrides: Sequence[str] = (), progress: Progress = lambda stage: None) -> Build:
+def check(
+    config_path: Path,
+    overrides: Sequence[str] = (),
+    progress: Progress = lambda stage: None,
+    exact: bool = False,
+) -> Build:
     """Builds a piece and throws the files away, so that it finds what a build would find.
 
-    Raises what `build` raises.
+    With `exact` the kernel also cuts the finished jig with each wire and each channel: the report's jig has
+    `interference_mm3`, which is 0. Raises what `build` raises, KernelError where that is more than nothing.
     """
     work = _start(config_path, overrides, "exports", progress)
+    work.exact = exact
     with tempfile.TemporaryDirectory(prefix="wrapit-check-") as folder:
         _run(work, Path(folder))
     work.report["findings"] = reports.findings_list(work.findings)

@@ -29,7 +29,7 @@ def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
         makers = [JIGS[kind] for kind in dict.fromkeys(work.config.jigs)]
         solid = next((maker for maker in makers if maker.solid), None)
         if solid is not None and worker is not None:
-            worker.start(make_solids, solid.kind, work.laid, work.config, folder)
+            worker.start(make_solids, solid.kind, work.laid, work.config, folder, work.exact)
         made: dict[JigKind, Made | UnheldError] = {}
         for maker in makers:
             if not maker.solid:
@@ -103,7 +103,7 @@ def _make_mirrored(work: Work, worker: Worker, maker: JigMaker, folder: Path | N
     from wrapit.wires.mirror import mirrored
 
     config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
-    worker.start(make_solids, maker.kind, mirrored(work.laid), config, folder, MIRRORED)
+    worker.start(make_solids, maker.kind, mirrored(work.laid), config, folder, work.exact, MIRRORED)
     made: Made = _awaited(work, worker, "mirrored jig")
     work.mirrored = made
     work.findings += map(_of_mirrored, made.findings)

@@ -24,15 +24,20 @@ _BETWEEN_MM = 10.0
 Frames = dict[str, list[float] | dict[str, list[float]]]
 
 
-def make_solids(kind: JigKind, wires: Wires, config: Config, folder: Path | None, suffix: str = "") -> Made:
+def make_solids(
+    kind: JigKind, wires: Wires, config: Config, folder: Path | None, exact: bool = False, suffix: str = ""
+) -> Made:
     """The jig of a kind with solids, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
 
-    `wires` are as they lie in the jig. The result holds no kernel shapes; its numbers say in which frame each
-    file is.
+    `wires` are as they lie in the jig; with `exact` the kind's judge looks at it once more. The result holds
+    no kernel shapes; its numbers say in which frame each file is.
     """
     from wrapit.jig.kinds import JIGS
 
-    made = JIGS[kind].make(wires, config)
+    maker = JIGS[kind]
+    made = maker.make(wires, config)
+    if exact and maker.judge is not None:
+        made = maker.judge(made, wires, config)
     numbers = made.numbers
     if folder is not None:
         numbers = {**numbers, "frames": _write(made, config, folder, suffix)}

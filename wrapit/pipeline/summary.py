@@ -31,6 +31,8 @@ def summary_lines(result: Build) -> Iterator[str]:
         bends = any(wire["turns"] for wire in report["wires"])
         held = f", {jig['turn_support']:.0%} of turns held" if bends else ""
         yield f"{jigs}: {_count(jig['walls'], 'wall')}, {size} mm{held}"
+        if "interference_mm3" in jig:
+            yield f"the kernel's booleans find {jig['interference_mm3']:g} mm³ of jig in wires and channels"
     if result.folder is not None:
         yield _where(result)
 

@@ -31,6 +31,9 @@ class Work:
     until: Stage
     progress: Progress
     alternatives: int
+    exact: bool = False
+    """Whether solids are judged once more, by the kernel's booleans."""
+
     timings_s: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     drawing: Drawing | None = None

@@ -8,6 +8,7 @@ from wrapit.config import Config
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires
 from wrapit.jig.model import JigSet
 from wrapit.jig.printed.jig_numbers import jig_numbers
+from wrapit.jig.printed.judging import judged
 from wrapit.jig.support import held_share
 
 
@@ -58,4 +59,4 @@ def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
 
 
 # The kind, as `jig.kinds` lists it.
-PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held)
+PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held, judge=judged)
