@@ -14,8 +14,8 @@ from shapely import LineString, Polygon
 
 from tests.exports.pieces_for_tests import arc_chain, eye
 from tests.exports.test_preview_png import PLATE, WALL
-from wrapit.exports.laser_profiles import PROFILES
-from wrapit.exports.plate_dxf import write_dxf
+from wrapit.exports.laser_profiles import ORDER, PROFILES
+from wrapit.exports.plate_dxf import PLANAR, write_dxf
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
 from wrapit.jig.contours import Contour
 from wrapit.jig.sheet.engraving import engraved_wires, wire_numbers
@@ -75,7 +75,7 @@ def test_order_colours_and_layers_follow_the_profile(tmp_path: Path) -> None:
         write_dxf(path, reversed(contours), name)
         document = ezdxf.readfile(path)
         order = [entity.dxf.layer for entity in document.modelspace()]
-        layers = [looks[layer].name for layer in ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")]
+        layers = [looks[layer].name for layer in ORDER]
         assert [layers.index(layer) for layer in order] == sorted(layers.index(layer) for layer in order)
         if name == "plain":
             kinds = {entity.dxftype() for entity in document.modelspace()}
@@ -90,7 +90,7 @@ def test_curves_are_splines_in_bezier_form(tmp_path: Path) -> None:
     write_dxf(tmp_path / "moon.dxf", [Contour("CUT_OUTER", moon().outer.edges)])
     (spline,) = ezdxf.readfile(tmp_path / "moon.dxf").modelspace()
     assert spline.dxftype() == "SPLINE"
-    assert spline.closed
+    assert spline.dxf.flags == PLANAR
     knots = np.array(spline.knots)
     _, counts = np.unique(knots, return_counts=True)
     assert counts.tolist() == [4] + [3] * (len(counts) - 2) + [4]
