@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from shapely import Polygon
     from shapely.geometry.base import BaseGeometry
 
-# Between points of a curve: flat to 0.005²/(8 · 0.1) = 3e-5 mm where a kerf rounds a corner to 0.1 mm.
-_FLAT_MM = 0.005
+# How far chords may leave a curve: a width measures at most twice as much too small.
+_FLAT_MM = 5e-4
 # A bulge behind a neck is one if it is wider by this.
 _STAIR_MM = 0.1
 # Widths are told in hundredths.
 _WIDTH_STEP_MM = 0.005
-# What a round hole's polygon and rounding may lack of its width.
-_SLACK_MM = 1e-3
+# What chords (1e-3 mm) and crumbs (1.2e-3 mm) may take of a width that is just wide enough.
+_SLACK_MM = 3e-3
 # Crumbs of an erosion are not pieces; a round hole measures narrower by twice the radius of one, 1.2e-3 mm.
 _CRUMB_MM2 = 1e-6
 

@@ -85,7 +85,8 @@ def _kerf(rules: ShopRules, config: PlateConfig) -> Finding | None:
         "warning",
         "shop-kerf",
         "plate.kerf",
-        f"the files reckon with {config.kerf:g} mm; {rules.name}'s lasers remove {rules.kerf_mm:g} mm on average",
+        f"the files reckon with {config.kerf:g} mm; {rules.name}'s lasers remove "
+        f"{rules.kerf_mm:g} mm on average",
         f"set plate.kerf to {rules.kerf_mm:g} mm, or to what the page of your material says",
     )
 
@@ -138,11 +139,11 @@ def _more_than_cuts(rules: ShopRules, sheet: LaserSheet) -> Finding | None:
     if not layers:
         return None
     count = sum(not contour.is_cut for contour in sheet.contours)
+    names = " and ".join(layers)
     return Finding(
         "warning",
         "shop-not-cut",
         f"sheet {sheet.number}",
-        f"{count} lines on {' and '.join(layers)} are not cuts; {rules.name} asks for nothing but cuts",
-        f"delete {'the layers' if len(layers) > 1 else 'the layer'} {' and '.join(layers)} before you send it, "
-        "and mark the parts by hand",
+        f"{count} lines on {names} are not cuts; {rules.name} asks for nothing but cuts",
+        f"delete what is on {names} before you send it, and mark the parts by hand",
     )
