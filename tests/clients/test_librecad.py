@@ -1,4 +1,4 @@
-"""LibreCAD draws the laser's file as it is meant: its print is the planned cuts, whatever spells the curves."""
+"""LibreCAD draws the laser's file as it is meant: it prints the planned cuts, whatever spells the curves."""
 
 from __future__ import annotations
 
@@ -46,7 +46,8 @@ def test_librecad_prints_the_planned_cuts(
     cut = Contour("CUT_OUTER", moon().outer.edges).moved(0, (12.0, 10.0))
     drawn, printed, picture = (tmp_path / f"moon.{ext}" for ext in ("dxf", "pdf", "svg"))
     write_dxf(drawn, [cut], "lightburn", curves, 0.002)
-    command = [librecad, "dxf2pdf", "-p", "40x40", "-r", "4800", "-s", "1", "-o", str(printed), str(drawn)]
+    command = [librecad, "dxf2pdf", "-p", "40x40", "-r", "4800", "-s", "1"]
+    command += ["-o", str(printed), str(drawn)]
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "HOME": str(tmp_path)}
     run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=300, check=False)
     assert printed.is_file(), run.stdout + run.stderr

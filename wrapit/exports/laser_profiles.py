@@ -27,7 +27,8 @@ class Look:
         return "#{:02x}{:02x}{:02x}".format(*self.rgb)
 
 
-# The pure colours, which AutoCAD numbers 1 (red), 3 (green), 4 (cyan), 5 (blue), 7 (black on white); 8 is grey.
+# The pure colours, which AutoCAD numbers 1 (red), 3 (green), 4 (cyan), 5 (blue), 7 (black on white); 8 is
+# grey.
 BLACK, RED, GREEN, BLUE, CYAN = (0, 0, 0), (255, 0, 0), (0, 255, 0), (0, 0, 255), (0, 255, 255)
 # No service has work for grey.
 GREY_NOTE: Final = Look("NOTE", 8, (128, 128, 128))

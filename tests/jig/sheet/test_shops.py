@@ -34,7 +34,7 @@ def hole(diameter_mm: float, at: tuple[float, float] = (20, 15)) -> Contour:
 
 
 def dumbbell(neck_mm: float, first_mm: float, second_mm: float) -> Contour:
-    """Two squares with a bar between them, 10 mm long, drawn half a kerf outside; the bar's middle is 0, 0."""
+    """Two squares, a bar of 10 mm between them about 0, 0; drawn half a kerf outside."""
     out = KERF_MM / 2
     half, left, right = neck_mm / 2 + out, first_mm / 2 + out, second_mm / 2 + out
     a, b = -5 + out, 5 - out

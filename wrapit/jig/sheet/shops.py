@@ -1,4 +1,4 @@
-"""What a cutting service asks of a file, as it publishes it; each breach is a finding with place and numbers."""
+"""What cutting services publish that they ask of a file; each breach is a finding with place and numbers."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ SHOPS: Final[dict[ShopName, ShopRules]] = {
     # text, mm or inches. sendcutsend.com/blog/10-common-reasons-your-design-is-failing-sendcutsend-preflight:
     # one part a file. Read in November 2026.
     "sendcutsend": ShopRules("SendCutSend", 0.5, 0.5, single_part=True, cuts_only=True),
-    # help.ponoko.com/en/articles/3149752-how-does-laser-cutting-work: cuts on the line's centre, 0.2 mm wide on
-    # average. Read in November 2026; sizes stand on the pages of single materials, which could not be read.
+    # help.ponoko.com/en/articles/3149752-how-does-laser-cutting-work: cuts on the line's centre, 0.2 mm wide
+    # on average. Read in November 2026; sizes stand on the pages of single materials, which were not read.
     "ponoko": ShopRules("Ponoko", kerf_mm=0.2),
     # lasercut.parts/en/design-guide: one part a file, nothing but cuts, engraving by a PDF drawing only.
     # lasercut.parts/en/blog/how-to-prepare-dxf-file: a hole is at least as wide as the sheet is thick; R12 or
