@@ -32,8 +32,8 @@ from wrapit.jig.contours import Contour
 
 pytestmark = pytest.mark.client
 
-# LibreCAD prints on a grid: arcs and lines, which it can't take for others, are off by 0.015 mm. A spline that
-# it takes for a periodic one was off by 0.13 to 0.5 mm.
+# LibreCAD prints on a grid: arcs and lines, which it can't take for others, are off by 0.015 mm. A spline
+# that it takes for a periodic one was off by 0.06 to 0.5 mm, this one by 0.26.
 PRINT_MM = 0.03
 
 
