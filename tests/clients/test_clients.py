@@ -128,4 +128,4 @@ def test_report_names_every_file(piece: Piece) -> None:
     assert listed == {path.name for path in build.folder.iterdir()} - {"report.json"}
     solids = {"jig.step", "jig.stl", "jig.3mf", "wires.step"}
     texts = {"drawing.svg", "drawing.json", "decomposition.svg", "decomposition.json", "config.lock.yaml"}
-    assert solids | texts | {"plate.dxf", "preview.png", "guide.html"} <= listed
+    assert solids | texts | {"plate-1-3mm.dxf", "plate-2-6mm.dxf", "preview.png", "guide.html"} <= listed

@@ -50,7 +50,7 @@ def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
     assert root.get("width") == f"{sheet.width_mm:g}mm"
     assert root.get("viewBox") == f"0 0 {sheet.width_mm:g} {sheet.height_mm:g}"
     groups = {group.get("id"): group for group in root if group.tag.endswith("}g")}
-    assert list(groups) == ["ENGRAVE", "CUT_INNER", "CUT_OUTER"]
+    assert list(groups) == ["NOTE", "ENGRAVE", "CUT_INNER", "CUT_OUTER"]
     assert groups["CUT_OUTER"].get("stroke") == "#ff0000"
     for layer, group in groups.items():
         assert group.get("fill") == "none"

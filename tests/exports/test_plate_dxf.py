@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 import ezdxf
+import ezdxf.bbox
 import ezdxf.path
 import numpy as np
 import pytest
@@ -14,10 +15,11 @@ from shapely import LineString, Polygon
 
 from tests.exports.pieces_for_tests import arc_chain, eye
 from tests.exports.test_preview_png import PLATE, WALL
-from wrapit.exports.laser_profiles import PROFILES
-from wrapit.exports.plate_dxf import write_dxf
+from wrapit.config.plate import CurveStyle, ProfileName
+from wrapit.exports.laser_profiles import ORDER, PROFILES
+from wrapit.exports.plate_dxf import PLANAR, write_dxf
 from wrapit.geometry import Arc, BezierChain, Line, Loop, Region
-from wrapit.jig.contours import Contour
+from wrapit.jig.contours import Contour, Layer
 from wrapit.jig.sheet.engraving import engraved_wires, wire_numbers
 from wrapit.wires.model import Wire
 
@@ -75,7 +77,7 @@ def test_order_colours_and_layers_follow_the_profile(tmp_path: Path) -> None:
         write_dxf(path, reversed(contours), name)
         document = ezdxf.readfile(path)
         order = [entity.dxf.layer for entity in document.modelspace()]
-        layers = [looks[layer].name for layer in ("ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER")]
+        layers = [looks[layer].name for layer in ORDER]
         assert [layers.index(layer) for layer in order] == sorted(layers.index(layer) for layer in order)
         if name == "plain":
             kinds = {entity.dxftype() for entity in document.modelspace()}
@@ -90,7 +92,7 @@ def test_curves_are_splines_in_bezier_form(tmp_path: Path) -> None:
     write_dxf(tmp_path / "moon.dxf", [Contour("CUT_OUTER", moon().outer.edges)])
     (spline,) = ezdxf.readfile(tmp_path / "moon.dxf").modelspace()
     assert spline.dxftype() == "SPLINE"
-    assert spline.closed
+    assert spline.dxf.flags == PLANAR
     knots = np.array(spline.knots)
     _, counts = np.unique(knots, return_counts=True)
     assert counts.tolist() == [4] + [3] * (len(counts) - 2) + [4]
@@ -150,3 +152,35 @@ def test_bytes_repeat(tmp_path: Path) -> None:
     write_dxf(tmp_path / "a.dxf", contours)
     write_dxf(tmp_path / "b.dxf", contours)
     assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
+
+
+@pytest.mark.parametrize("curves", ["spline", "arc", "polyline"])
+@pytest.mark.parametrize("profile", sorted(PROFILES))
+def test_the_extents_are_those_of_what_is_drawn(
+    tmp_path: Path, profile: ProfileName, curves: CurveStyle
+) -> None:
+    contours = [Contour("CUT_OUTER", moon().outer.edges), Contour("NOTE", (Line((-9, 1), (2, 10)),))]
+    write_dxf(tmp_path / "moon.dxf", contours, profile, curves, 0.001)
+    document = ezdxf.readfile(tmp_path / "moon.dxf")
+    box = ezdxf.bbox.extents(document.modelspace())
+    assert document.header["$EXTMIN"] == pytest.approx(tuple(box.extmin), abs=1e-9)
+    assert document.header["$EXTMAX"] == pytest.approx(tuple(box.extmax), abs=1e-9)
+    assert document.header["$EXTMIN"][:2] == pytest.approx((-9, 0), abs=2e-3)
+    assert document.header["$EXTMAX"][:2] == pytest.approx((8, 10), abs=2e-3)
+
+
+@pytest.mark.parametrize("profile", sorted(PROFILES))
+def test_who_cuts_the_layers_of_cuts_cuts_nothing_else(tmp_path: Path, profile: ProfileName) -> None:
+    line = (Line((0, 0), (1, 0)),)
+    others: list[Layer] = [layer for layer in ORDER if not layer.startswith("CUT")]
+    contours = [Contour(layer, line) for layer in others] + [Contour("CUT_OUTER", PLATE.outer.edges)]
+    write_dxf(tmp_path / "plate.dxf", contours, profile)
+    looks = PROFILES[profile]
+    cut = {looks["CUT_INNER"].name, looks["CUT_OUTER"].name}
+    assert not cut & {looks[layer].name for layer in others}
+    assert not {looks["CUT_INNER"].rgb, looks["CUT_OUTER"].rgb} & {looks[layer].rgb for layer in others}
+    document = ezdxf.readfile(tmp_path / "plate.dxf")
+    for layer in others:
+        (entity,) = document.modelspace().query(f'*[layer=="{looks[layer].name}"]')
+        assert entity.dxftype() in ("LINE", "LWPOLYLINE")
+        assert document.layers.get(looks[layer].name).dxf.plot == int(layer != "NOTE")

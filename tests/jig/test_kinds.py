@@ -63,7 +63,7 @@ def test_a_laser_jig_waits_for_no_print_bed_and_no_kernel(tmp_path: Path, proces
     assert result.report["drawing"]["size_mm"][0] == pytest.approx(240, abs=1)
     assert result.report["plate"]["parts"] >= 3
     assert "jig" not in result.report
-    assert not ezdxf.readfile(tmp_path / "out" / "plate.dxf").audit().errors
+    assert not ezdxf.readfile(tmp_path / "out" / "plate-1-3mm.dxf").audit().errors
     assert codes(result, "error") == []
 
 
@@ -83,7 +83,8 @@ def test_all_kinds_at_once(tmp_path: Path, processes: list[Worker]) -> None:
     assert {"jig", "plate", "pegs"} <= set(report)
     assert {each["path"] for each in report["artifacts"]} >= {
         "jig.stl",
-        "plate.dxf",
+        "plate-1-3mm.dxf",
+        "plate-2-6mm.dxf",
         "pegs.dxf",
         "guide.html",
     }

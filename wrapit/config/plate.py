@@ -9,6 +9,7 @@ from wrapit.config.quantities import length, number
 
 ProfileName = Literal["lightburn", "boxes", "service-red", "snijlab", "plain"]
 CurveStyle = Literal["spline", "arc", "polyline"]
+ShopName = Literal["none", "sendcutsend", "ponoko", "lasercut.parts"]
 
 
 class PlateConfig(Block):
@@ -17,8 +18,11 @@ class PlateConfig(Block):
     profile: ProfileName = "lightburn"
     """Layer names and colours that the laser's software or the cutting service expects.
 
-    `plain`: everything on layer 0, lines and arcs only.
+    `plain`: cuts on layer 0, engraving on a layer ENGRAVE; lines and arcs only.
     """
+
+    shop: ShopName = "none"
+    """A cutting service whose published rules the sheets are held against; each breach is a finding."""
 
     curves: CurveStyle = "spline"
     """How curves are written: exactly, or as arcs or short lines within `tolerance`."""

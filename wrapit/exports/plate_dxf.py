@@ -20,6 +20,9 @@ from wrapit.jig.contours import Contour
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
+# Of a SPLINE's flags (closed 1, periodic 2, rational 4, planar 8) the one that ours has.
+PLANAR = 8
+
 
 def write_dxf(
     path: Path,
@@ -32,7 +35,8 @@ def write_dxf(
 
     Contours with curves become one SPLINE in Bézier form (each interior knot three times), or a polyline
     with arcs or short lines within the tolerance; contours of lines and arcs one polyline, circles a
-    CIRCLE. The profile `plain` has LINE, ARC and CIRCLE only. Colours stand on entities and on layers,
+    CIRCLE. The profile `plain` has LINE, ARC and CIRCLE only. `$EXTMIN` and
+    `$EXTMAX` are what is drawn. Colours stand on entities and on layers,
     because some programs ignore one of the two. The same contours give the same bytes.
     Raises ExportError when the file can't be written or an audit of it finds a fault.
     """
@@ -45,15 +49,17 @@ def write_dxf(
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         looks = PROFILES[profile]
-        for look in looks.values():
+        for layer, look in looks.items():
             if look.name not in document.layers:
                 document.layers.add(look.name)
             document.layers.get(look.name).color = look.aci
             document.layers.get(look.name).rgb = look.rgb
+            document.layers.get(look.name).dxf.plot = int(layer != "NOTE")
         space = document.modelspace()
         for contour in in_order(contours):
             drawn = Contour(contour.layer, simplified(contour.edges, curves, tolerance_mm))
             _add(space, drawn, looks[contour.layer], exploded=profile == "plain")
+        _say_extents(space)
         _check(document, path)
         for name in sorted(document.entitydb.dxf_types_in_use()):  # the library adds some in random order
             document.classes.add_class(name)
@@ -119,8 +125,18 @@ def _add_spline(
     spline.control_points = [(float(x), float(y), 0.0) for x, y in poles]
     inner = [float(index) for index in range(1, len(chain)) for _ in range(3)]
     spline.knots = [0.0] * 4 + inner + [float(len(chain))] * 4
-    # Planar; the closed flag says that it ends where it starts, its poles and knots say it exactly.
-    spline.dxf.flags = 8 | int(closed)
+    # Planar, and never "closed", though poles and knots end exactly where they start: with that flag LibreCAD
+    # takes them for a periodic spline's and draws another curve (see the README's table).
+    spline.dxf.flags = PLANAR
+
+
+def _say_extents(space: Modelspace) -> None:
+    """Programs place and zoom a drawing by the extents that it says it has."""
+    from ezdxf import bbox
+
+    extents = bbox.extents(space)
+    if extents.has_data:
+        space.reset_extents(extents.extmin, extents.extmax)
 
 
 def _true_colour(look: Look) -> int:

@@ -8,14 +8,15 @@ from typing import Literal
 from wrapit.geometry import Edge
 from wrapit.geometry.outlines.loops import moved
 
-Layer = Literal["ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
+Layer = Literal["NOTE", "ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 
 
 @dataclass(frozen=True)
 class Contour:
     """One run of the laser: edges that follow one another, on the layer that says what is done there.
 
-    On the CUT layers contours are closed; engraved lines may be open.
+    On the CUT layers contours are closed; engraved lines may be open. What stands on NOTE is for people:
+    the laser leaves it out.
     """
 
     layer: Layer
@@ -35,6 +36,11 @@ class Contour:
     def is_cut(self) -> bool:
         """Whether the laser goes through the sheet here."""
         return self.layer.startswith("CUT")
+
+    @property
+    def is_worked(self) -> bool:
+        """Whether the laser follows it at all."""
+        return self.layer != "NOTE"
 
     def moved(self, quarters: int, shift: tuple[float, float]) -> Contour:
         """The contour turned by right angles about the origin, then shifted."""

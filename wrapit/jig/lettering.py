@@ -10,7 +10,7 @@ import numpy as np
 
 from wrapit.geometry import FloatArray, Line
 from wrapit.geometry.polyline import steps
-from wrapit.jig.contours import Contour
+from wrapit.jig.contours import Contour, Layer
 
 # Capitals of the Hershey font fill three quarters of its full height (the font's own measure).
 _CAPITAL = 0.75
@@ -22,12 +22,14 @@ def text_size_mm(text: str, height_mm: float) -> tuple[float, float]:
     return float(width), float(height)
 
 
-def engraved_text(text: str, centre: tuple[float, float], height_mm: float) -> tuple[Contour, ...]:
-    """The text around its centre, as open polylines on ENGRAVE (Hershey's simplex letters)."""
+def engraved_text(
+    text: str, centre: tuple[float, float], height_mm: float, layer: Layer = "ENGRAVE"
+) -> tuple[Contour, ...]:
+    """The text around its centre, as open polylines (Hershey's simplex letters)."""
     strokes = _strokes(text, height_mm)
     points = np.vstack(strokes)
     shift = np.array(centre) - (points.min(axis=0) + points.max(axis=0)) / 2
-    return tuple(_polyline(stroke + shift) for stroke in strokes)
+    return tuple(_polyline(stroke + shift, layer) for stroke in strokes)
 
 
 def _strokes(text: str, height_mm: float) -> list[FloatArray]:
@@ -61,8 +63,8 @@ def _distinct(stroke: FloatArray) -> FloatArray:
     return stroke[keep]
 
 
-def _polyline(points: FloatArray) -> Contour:
+def _polyline(points: FloatArray, layer: Layer) -> Contour:
     edges = tuple(
         Line((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))) for a, b in itertools.pairwise(points)
     )
-    return Contour("ENGRAVE", edges)
+    return Contour(layer, edges)

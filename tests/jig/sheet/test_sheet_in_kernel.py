@@ -68,7 +68,7 @@ def test_walls_assembled_in_the_kernel_stand_at_radius_and_clearance(
     chains = [chain_of(wire.centreline) for wire in wires]
     gaps = []
     for sheet in laser.sheets:
-        cuts = outer_cuts(tmp_path / f"{sheet_name(sheet) if len(laser.sheets) > 1 else 'plate'}.dxf")
+        cuts = outer_cuts(tmp_path / f"{sheet_name(sheet)}.dxf")
         for placed in sheet.placed:
             if placed.part.role != "wall":
                 continue

@@ -17,9 +17,9 @@ from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Loop
 from wrapit.geometry.bspline import chain_of
-from wrapit.jig.sheet.drawings import GAP_MM, sheet_name
+from wrapit.jig.sheet.drawings import sheet_name
 from wrapit.jig.sheet.inlays import polygon_of
-from wrapit.jig.sheet.model import LaserJig, LaserPart, Placed
+from wrapit.jig.sheet.model import LaserJig, LaserPart, LaserSheet, Placed
 from wrapit.wires.model import Wire
 
 
@@ -78,7 +78,7 @@ Cut = tuple[tuple[Wire, ...], PlateConfig, LaserJig, tuple[Finding, ...], Path]
 def test_sheets_read_back_have_the_parts_grown_by_half_a_kerf(cut: Cut) -> None:
     _, config, laser, _, folder = cut
     for sheet in laser.sheets:
-        rings = read(folder / f"{sheet_name(sheet) if len(laser.sheets) > 1 else 'plate'}.dxf")
+        rings = read(folder / f"{sheet_name(sheet)}.dxf")
         assert len(rings["CUT_OUTER"]) == len(sheet.placed)
         for placed in sheet.placed:
             found = cut_polygon(placed, rings)
@@ -93,24 +93,24 @@ def test_sheets_read_back_have_the_parts_grown_by_half_a_kerf(cut: Cut) -> None:
 
 def test_nothing_crosses_or_is_drawn_twice(cut: Cut) -> None:
     _, _, laser, findings, folder = cut
-    rings = [ring for layer in read(folder / "plate.dxf").values() for ring in layer]
-    assert len(rings) == laser.checks.closed_contours
-    assert all(ring.is_simple for ring in rings)
-    tree = shapely.STRtree(rings)
-    pairs = [(a, b) for a, b in tree.query(rings, predicate="intersects").T if a < b]
-    assert pairs == []
+    count, gaps = 0, []
+    for sheet in laser.sheets:
+        rings = [ring for layer in read_sheet(folder, sheet).values() for ring in layer]
+        count += len(rings)
+        assert all(ring.is_simple for ring in rings)
+        tree = shapely.STRtree(rings)
+        pairs = [(a, b) for a, b in tree.query(rings, predicate="intersects").T if a < b]
+        assert pairs == []
+        near = tree.query(rings, predicate="dwithin", distance=5.0).T
+        gaps += [rings[a].distance(rings[b]) for a, b in near if a < b]
+    assert count == laser.checks.closed_contours
     assert not {finding.code for finding in findings} & {"open-cut", "crossing-cut"}
-    nearest = min(
-        rings[a].distance(rings[b])
-        for a, b in tree.query(rings, predicate="dwithin", distance=5.0).T
-        if a < b
-    )
-    assert nearest == pytest.approx(laser.checks.min_cut_distance_mm, abs=2e-3)
+    assert min(gaps) == pytest.approx(laser.checks.min_cut_distance_mm, abs=2e-3)
 
 
 def test_length_is_the_sum_of_what_is_read(cut: Cut) -> None:
     *_, laser, _, folder = cut
-    rings = [ring for layer in read(folder / "plate.dxf").values() for ring in layer]
+    rings = [r for sheet in laser.sheets for layer in read_sheet(folder, sheet).values() for r in layer]
     # Flattened curves are a little shorter than the true ones.
     assert sum(ring.length for ring in rings) == pytest.approx(laser.checks.cut_length_mm, rel=5e-5)
 
@@ -118,7 +118,7 @@ def test_length_is_the_sum_of_what_is_read(cut: Cut) -> None:
 def test_parts_lie_on_their_sheets_and_apart(cut: Cut) -> None:
     _, config, laser, _, folder = cut
     for sheet in laser.sheets:
-        outer = [Polygon(ring) for ring in read_sheet(folder, laser, sheet)["CUT_OUTER"]]
+        outer = [Polygon(ring) for ring in read_sheet(folder, sheet)["CUT_OUTER"]]
         left, bottom, right, top = shapely.union_all(outer).bounds
         assert left >= config.spacing - 1e-3
         assert bottom >= config.spacing - 1e-3
@@ -129,8 +129,8 @@ def test_parts_lie_on_their_sheets_and_apart(cut: Cut) -> None:
         assert len({placed.part.thickness_mm for placed in sheet.placed}) == 1
 
 
-def read_sheet(folder: Path, laser: LaserJig, sheet: object) -> dict[str, list[LinearRing]]:
-    return read(folder / f"{sheet_name(sheet) if len(laser.sheets) > 1 else 'plate'}.dxf")
+def read_sheet(folder: Path, sheet: LaserSheet) -> dict[str, list[LinearRing]]:
+    return read(folder / f"{sheet_name(sheet)}.dxf")
 
 
 def test_pocket_minus_piece_is_the_fit_all_around(cut: Cut) -> None:
@@ -171,21 +171,11 @@ def test_engraving_stays_on_the_plates(cut: Cut) -> None:
                 assert shape.contains(line), (part.label, line)
 
 
-def test_files_of_several_sheets_lie_side_by_side(cut: Cut) -> None:
+def test_each_sheet_has_its_files_and_there_are_no_others(cut: Cut) -> None:
     *_, laser, _, folder = cut
-    whole = read(folder / "plate.dxf")
-    left = 0.0
-    total = 0
+    names = {f"plate-{sheet.number}-{sheet.thickness_mm:g}mm" for sheet in laser.sheets}
+    assert len(names) == len(laser.sheets)
+    assert {path.name for path in folder.iterdir()} == {f"{n}.{ext}" for n in names for ext in ("dxf", "svg")}
     for sheet in laser.sheets:
-        alone = read_sheet(folder, laser, sheet)
-        for layer, rings in alone.items():
-            for ring in rings:
-                shifted = shapely.affinity.translate(ring, left if len(laser.sheets) > 1 else 0.0)
-                assert any(same(shifted, other) for other in whole[layer])
-                total += 1
-        left += sheet.width_mm + GAP_MM
-    assert total == sum(map(len, whole.values()))
-
-
-def same(one: LinearRing, other: LinearRing) -> bool:
-    return one.centroid.distance(other.centroid) < 1e-3 and abs(one.length - other.length) < 1e-3
+        drawn = sum(map(len, read(folder / f"{sheet_name(sheet)}.dxf").values()))
+        assert drawn == sum(contour.is_cut for contour in sheet.contours)

@@ -102,6 +102,7 @@ def test_sheets_of_different_thickness_say_which_they_are() -> None:
     three, six = (sheet.marks for sheet in laser.sheets)
     assert three
     assert len(three) != len(six) or any(a.edges != b.edges for a, b in zip(three, six, strict=True))
+    assert {mark.layer for mark in (*three, *six)} == {"NOTE"}
     same, _ = laser_of(hairpin(), PlateConfig(wall_sheet="3 mm"))
     assert all(not sheet.marks for sheet in same.sheets)
 
@@ -130,6 +131,8 @@ def test_reference_bar_is_a_hundred_millimetres_long() -> None:
     for sheet in laser.sheets:
         bar = sheet.marks[0].edges[0]
         assert bar.end[0] - bar.start[0] == pytest.approx(100.0)
+        assert sheet.marks[0].layer == "ENGRAVE"
+        assert sheet.marks[-1].layer == "NOTE"
         lowest = min(
             Loop(c.edges).sampled(0.05)[:, 1].min() for p in sheet.placed for c in p.contours if c.is_cut
         )

@@ -56,7 +56,8 @@ def check_sheets(
             distances.append(nearest.distance_mm)
             findings += _too_near(sheet, nearest)
         cut_mm += sum(map(length_mm, cuts))
-        engraved_mm += sum(length_mm(contour) for contour in sheet.contours if not contour.is_cut)
+        engraved = (contour for contour in sheet.contours if contour.is_worked and not contour.is_cut)
+        engraved_mm += sum(map(length_mm, engraved))
     webs = [web for part in parts if (web := _web(part, kerf_mm)) is not None]
     findings += [finding for _, finding in webs if finding is not None]
     return (

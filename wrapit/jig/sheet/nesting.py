@@ -10,13 +10,15 @@ import numpy as np
 from wrapit.config import PlateConfig
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, Line, Loop
-from wrapit.jig.contours import Contour
+from wrapit.jig.contours import Contour, Layer
 from wrapit.jig.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.model import LaserPart, LaserSheet, Placed
 
 # Packing counts in whole hundredths of a millimetre.
 _UNITS_PER_MM = 100
-# Along the lower edge of a sheet: lettering of 2 mm over the bar's ticks, and free sheet above.
+# Legible where it is engraved: no wire number is smaller than three quarters of it.
+TEXT_MM = 2.0
+# Along the lower edge of a sheet: lettering over the bar's ticks, and free sheet above.
 STRIP_MM = 6.0
 # Long enough that 0.1 % is seen with a caliper.
 BAR_MM = 100.0
@@ -124,15 +126,21 @@ def _too_large(part: LaserPart, need: FloatArray, config: PlateConfig) -> Findin
 
 
 def _marks(thickness_mm: float, width_mm: float, config: PlateConfig) -> tuple[Contour, ...]:
-    """The thickness of the sheet, and the bar of 100 mm with its ticks if it is wanted."""
+    """The thickness of the sheet, to be read only; and if it is wanted the bar with its ticks, engraved."""
     x, y = config.spacing, config.spacing + 1.0
-    text = f"sheet of {thickness_mm:g} mm"
+    note = f"sheet of {thickness_mm:g} mm"
+    if not config.reference_bar:
+        return _lettered(note, x + 1.0, y + 2.6, "NOTE")
     ends = [(x + offset, y) for offset in (0.0, min(BAR_MM, width_mm - 2 * x))]
-    lines: list[Line] = []
-    if config.reference_bar:
-        lines = [Line(*ends), *(Line((end[0], end[1] - 1), (end[0], end[1] + 1)) for end in ends)]
-        text = f"{ends[1][0] - x:.0f} mm   {text}"
+    lines = [Line(*ends), *(Line((end[0], end[1] - 1), (end[0], end[1] + 1)) for end in ends)]
+    length = f"{ends[1][0] - x:.0f} mm"
     return (
         *(Contour("ENGRAVE", (line,)) for line in lines),
-        *engraved_text(text, (x + text_size_mm(text, 2.0)[0] / 2 + 1.0, y + 2.6), 2.0),
+        *_lettered(length, x + 1.0, y + 2.6, "ENGRAVE"),
+        *_lettered(note, x + 4.0 + text_size_mm(length, TEXT_MM)[0], y + 2.6, "NOTE"),
     )
+
+
+def _lettered(text: str, left_mm: float, middle_mm: float, layer: Layer) -> tuple[Contour, ...]:
+    centre = (left_mm + text_size_mm(text, TEXT_MM)[0] / 2, middle_mm)
+    return engraved_text(text, centre, TEXT_MM, layer)

@@ -20,6 +20,7 @@ from wrapit.jig.sheet.checks import LEAST_WEB_MM, check_sheets
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed, stack_parts
+from wrapit.jig.sheet.shops import check_shop
 from wrapit.jig.support import refuse_unheld, support_by_wire, turn_support, with_pins
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.wall_ground import wall_polygons
@@ -101,7 +102,7 @@ def laser_jig(
         pins=tuple(pin for plan in plans.values() for pin in plan.pins),
         checks=checks,
     )
-    return jig_model, (*findings, *_stacked(copies, config), *unfit, *faults)
+    return jig_model, (*findings, *_stacked(copies, config), *unfit, *faults, *check_shop(sheets, config))
 
 
 @dataclass(frozen=True, eq=False)
