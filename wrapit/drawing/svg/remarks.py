@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from wrapit.drawing.svg.reading.model import Missing, Omission, Page
+from wrapit.drawing.svg.seen.losses import Loss, What
 from wrapit.errors import DrawingError, Finding
 
 # How many places are named of many.
@@ -68,28 +69,29 @@ _KINDS: dict[Missing, tuple[str, str, str, str]] = {
         "correct it: numbers or brackets are missing",
     ),
 }
+# Why no line of a file is seen, and the remedy.
+_ALL_LOST: dict[What, tuple[str, str]] = {
+    "clipped": (
+        "all lines lie outside of the page, or are clipped away",
+        "move them into the page, or enlarge the page to the drawing",
+    ),
+    "hidden": (
+        "all lines lie hidden under other ink",
+        "move them to the front, or delete what lies over them",
+    ),
+    "erasing": ("all strokes have the colour of what they lie on", "give the lines a dark colour"),
+    "dots": ("the drawing has dots and no lines", "draw at least one line that is longer than a dot"),
+    "undrawn": (
+        "all lines have no dash on them, as before an animation",
+        "remove stroke-dasharray and stroke-dashoffset, and save the file again",
+    ),
+}
 
 
 def remarks(page: Page) -> tuple[Finding, ...]:
     """A finding for each kind of thing that is not drawn, or not as it is written."""
     kinds = dict.fromkeys(omission.what for omission in page.omissions)
-    found = [_remark(kind, [each for each in page.omissions if each.what == kind]) for kind in kinds]
-    dots = [
-        dot
-        for shape in page.shapes
-        if shape.stroke and shape.cap in ("round", "square")
-        for dot in shape.dots.tolist()
-    ]
-    if dots:
-        places = ", ".join(f"({x:.1f}, {y:.1f})" for x, y in dots[:_NAMED])
-        message = "1 dot is left out" if len(dots) == 1 else f"{len(dots)} dots are left out"
-        place = f"at {places}{', …' if len(dots) > _NAMED else ''} px"
-        found.append(
-            Finding(
-                "warning", "dots", place, f"{message}, as a wire needs a length", "draw small circles instead"
-            )
-        )
-    return tuple(found)
+    return tuple(_remark(kind, [each for each in page.omissions if each.what == kind]) for kind in kinds)
 
 
 def _remark(kind: Missing, omissions: list[Omission]) -> Finding:
@@ -108,7 +110,7 @@ def _remark(kind: Missing, omissions: list[Omission]) -> Finding:
     )
 
 
-def refusal(page: Page, filled: int, clipped: bool, path: Path) -> DrawingError:
+def refusal(page: Page, filled: int, losses: list[Loss], path: Path) -> DrawingError:
     """Why a file has no lines, as far as it tells: what is left out, or what isn't stroked."""
     first = {omission.what: omission for omission in reversed(page.omissions)}
     stroked = sum(shape.stroke is not None for shape in page.shapes)
@@ -116,9 +118,8 @@ def refusal(page: Page, filled: int, clipped: bool, path: Path) -> DrawingError:
         if found:
             remark = _remark(found.what, [found])
             return DrawingError(remark.message, f"{path}:{found.line}", remark.remedy)
-    if clipped:
-        problem = "all lines lie outside of the page, or are clipped away"
-        return DrawingError(problem, str(path), "move them into the page, or enlarge the page to the drawing")
+    if losses and stroked:
+        return _all_lost(losses, path)
     if stroked:
         problem = f"the drawing's lines ({stroked} in all) have no length"
         return DrawingError(problem, str(path), "draw at least one line that is longer than a dot")
@@ -143,3 +144,11 @@ def refusal(page: Page, filled: int, clipped: bool, path: Path) -> DrawingError:
         "give the lines a stroke (in Illustrator: untick Preserve Illustrator Editing Capabilities "
         "and save as SVG 1.1)",
     )
+
+
+def _all_lost(losses: list[Loss], path: Path) -> DrawingError:
+    """The refusal of a file none of whose lines is seen, by what most of them lack."""
+    most = max(dict.fromkeys(loss.what for loss in losses), key=[loss.what for loss in losses].count)
+    (first, *_) = (loss for loss in losses if loss.what == most)
+    problem, remedy = _ALL_LOST[most]
+    return DrawingError(problem, f"{path}:{first.line}", remedy)

@@ -14,6 +14,7 @@ from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.planar import planar
+from wrapit.drawing.svg.seen.told import told
 from wrapit.drawing.svg.strokes import Strokes, read_strokes
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import FloatArray
@@ -83,25 +84,14 @@ def trace_svg(
                 "edge; each is taken once",
             )
         )
-    if strokes.clipped:
-        longest, _ = max(strokes.clipped, key=lambda part: part[1])
-        total = where.scale * sum(length for _, length in strokes.clipped)
-        findings.append(
-            Finding(
-                "warning",
-                "clipped",
-                f"at ({longest[0]:.1f}, {longest[1]:.1f}) px",
-                f"{total:.1f} mm of lines lie outside of the page, or are clipped away, and are left out",
-                "enlarge the page to the drawing, or release the clip",
-            )
-        )
+    findings += told(strokes.losses, where.scale)
     if strokes.filled:
         findings.append(
             Finding(
                 "warning",
                 "filled-shapes",
                 "drawing",
-                f"{strokes.filled} filled shapes without a stroke are left out",
+                f"{len(strokes.filled)} filled shapes without a stroke are left out",
                 "give them a stroke, or set tracing.filled to outline",
             )
         )

@@ -9,33 +9,35 @@ from pathlib import Path
 import numpy as np
 
 from wrapit.config import TracingConfig
-from wrapit.drawing.svg.clipping import Hidden, Seen
 from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading.model import Page, Shape
 from wrapit.drawing.svg.reading.scene import read_page
 from wrapit.drawing.svg.remarks import refusal, remarks
+from wrapit.drawing.svg.seen.losses import Loss
+from wrapit.drawing.svg.seen.paper import is_white
+from wrapit.drawing.svg.seen.visible import Visible
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 
 # CSS and SVG 2: a pixel is a 96th of an inch.
 _MM_PER_PX = 25.4 / 96
-# Paper is nearly white (230 of 255 in each colour: cream and pale grey are), or is what lies first and fills
-# nine tenths of the page; outlines of a drawing, however large, fill a fraction of their box.
-_WHITE, _PAGE_SHARE = 230 / 255, 0.9
+# Paper is nearly white, or is what lies first and fills nine tenths of the page; outlines of a drawing, however
+# large, fill a fraction of their box.
+_PAGE_SHARE = 0.9
 
 
 @dataclass(frozen=True, eq=False)
 class Strokes:
     """The curves of an SVG file in its own pixels (96 per inch, y down), and their usual width.
 
-    `clipped` are the stretches of lines that are not seen; `page` is all that the file paints.
+    `losses` are the stretches of lines that are not read, or not as drawn; `page` is all that the file paints.
     """
 
     curves: list[Curve]
     width_px: float | None
-    filled: int
+    filled: list[Shape]
     mm_per_px: float
-    clipped: list[Hidden]
+    losses: list[Loss]
     page: Page
     findings: tuple[Finding, ...]
 
@@ -49,27 +51,26 @@ def read_strokes(path: Path, tracing: TracingConfig) -> Strokes:
     curves: list[Curve] = []
     widths: list[float] = []
     filled: list[Shape] = []
-    seen = Seen(page)
+    visible = Visible(page)
     for index, shape in enumerate(page.shapes):
-        if shape.stroke:
-            lines = seen.of(shape)
+        if visible.is_line(index):
+            lines = visible.lines(index)
             curves += lines
             widths += [shape.stroke_width] * len(lines)
-        elif shape.fill and not _is_ground(shape, first=index == 0, size=page.size):
+        elif shape.fill and shape.curves and not _is_ground(shape, first=index == 0, size=page.size):
             filled.append(shape)
             if tracing.filled == "outline":
                 curves += [_closed(curve) for curve in shape.curves]
     if not curves:
-        raise refusal(page, len(filled), bool(seen.hidden), path)
+        raise refusal(page, len(filled), visible.losses, path)
     usual = float(np.median(widths)) if widths else None
     width = usual if usual and math.isfinite(usual) and usual > 0 else None
-    return Strokes(curves, width, len(filled), _MM_PER_PX, seen.hidden, page, remarks(page))
+    return Strokes(curves, width, filled, _MM_PER_PX, visible.losses, page, remarks(page))
 
 
 def _is_ground(shape: Shape, first: bool, size: tuple[float, float]) -> bool:
     """Whether a filled shape is the paper."""
-    colour = shape.fill.colour if shape.fill else None
-    if colour is not None and min(colour[:3]) > _WHITE:
+    if shape.fill and is_white(shape.fill.colour):
         return True
     return first and _area(shape.curves) > _PAGE_SHARE * size[0] * size[1]
 
