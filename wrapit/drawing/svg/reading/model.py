@@ -11,6 +11,7 @@ import numpy as np
 from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant, inverse
 from wrapit.drawing.svg.reading.paints import Colour
+from wrapit.drawing.svg.reading.programs import Program
 from wrapit.geometry import FloatArray
 
 # What of a file is not drawn as a browser would draw it.
@@ -46,8 +47,8 @@ class Clip:
 class Shape:
     """One thing that is painted: first its fill, then its stroke. All lengths in px, after all transforms.
 
-    `dots` (n, 2) are subpaths without length. `dashes` and gaps follow in turn, from `dash_offset` on, anew for
-    each curve; none for a whole line. A point is seen that lies in all `clips`; `mask` is the name of a mask.
+    `dots` (n, 2) are subpaths without length. `dashes` and gaps follow in turn, from `dash_offset` on, anew
+    for each curve; none for a whole line. A point is seen that lies in all `clips`; `mask` is a mask's name.
     """
 
     tag: str
@@ -96,7 +97,7 @@ class Page:
     """All that a file paints, its size in px, and what is left out.
 
     `frame` is the edge of the page; None where the file says nothing of it, so that nothing lies outside.
-    `background` is the colour behind all, where the file gives one.
+    `background` is the colour behind all, where the file gives one, `program` what made the file.
     """
 
     shapes: tuple[Shape, ...]
@@ -104,6 +105,7 @@ class Page:
     frame: Clip | None
     omissions: tuple[Omission, ...] = field(default=())
     background: Colour | None = None
+    program: Program = ""
 
 
 def box_within(shapes: Iterable[Shape], matrix: Matrix) -> tuple[float, float, float, float] | None:

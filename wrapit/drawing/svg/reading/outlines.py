@@ -186,7 +186,7 @@ def _is_flat(subpaths: list[Subpath]) -> bool:
 
 
 def _stretched(element: Element, subpaths: list[Subpath]) -> float:
-    """By how much longer a line is than its `pathLength` says, in which dashes are measured (SVG 2, 9.6.1)."""
+    """By how much longer a line is than its `pathLength`, which dashes are measured by (SVG 2, 9.6.1)."""
     said = number(element.get("pathLength"))
     if not said or said < 0:
         return 1.0

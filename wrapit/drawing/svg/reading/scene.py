@@ -60,8 +60,9 @@ def read_page(path: Path) -> Page:
 
     Raises DrawingError where the file can't be read, is no SVG, or would take too long.
     """
-    root, sheets = read_document(path)
-    return _Scene(root, path).page([Omission("style-sheet", line, text[:40]) for line, text in sheets])
+    document = read_document(path)
+    omissions = [Omission("style-sheet", line, text[:40]) for line, text in document.sheets]
+    return replace(_Scene(document.root, path).page(omissions), program=document.program)
 
 
 class _Scene:

@@ -142,7 +142,7 @@ def _word(text: str, _: Measure) -> str:
 
 
 def _dashes(text: str, measure: Measure) -> tuple[float, ...]:
-    """Dashes and gaps in turn; none where the line is whole: no gap, or a length that is negative or unknown."""
+    """Dashes and gaps in turn; none for a whole line: without a gap, or with a length that is no length."""
     found = [measure.user_units(amount, unit, "both") for amount, unit in numbers(text) or ()]
     known = [each for each in found if each is not None and each >= 0]
     if len(known) < len(found):

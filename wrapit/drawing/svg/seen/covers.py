@@ -14,15 +14,15 @@ from wrapit.drawing.svg.seen.paper import alike, is_white, opaque, paper_of
 from wrapit.drawing.svg.seen.parting import Parts, parted
 from wrapit.drawing.svg.seen.regions import Regions, filled, stroked
 
-# All in widths of the line. Under paper, stretches shorter than half a width don't show as a gap: caps beside it
-# fill it. Under a dark shape the ink goes on; up to four widths, it is a knot or an arrowhead on the line.
+# All in widths of the line. Under paper, stretches shorter than half a width don't show as a gap: caps beside
+# it fill it. Under a dark shape the ink goes on; up to four widths, it is a knot or an arrowhead on the line.
 _SHORTEST_GAP = 0.5
 _LARGEST_KNOT = 4.0
 
 
 @dataclass(frozen=True, eq=False)
 class _Cover:
-    """Opaque ink: the number of its shape, its paper-coloured fill or stroke (a gap in what is behind) or not."""
+    """Opaque ink: which shape, its stroke or its fill, and whether in the colour of paper: a gap."""
 
     shape: int
     stroke: bool

@@ -23,7 +23,7 @@ _ROUNDING = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Dashed:
-    """What of a curve is read, and how it is drawn: as a whole, in dashes, or less of it, in one or no dash."""
+    """What of a curve is read, and how it is drawn: whole, in dashes, or less of it in one or no dash."""
 
     drawn: Literal["whole", "dashed", "less"]
     curve: Curve | None
@@ -39,22 +39,20 @@ def of_dashes(curve: Curve, shape: Shape) -> Dashed:
     at = samples(curve)
     along = lengths(points(curve.cubics, at))
     whole = float(along[-1])
-    if whole > _ROUNDS * period:
-        return Dashed("dashed", curve)
-    spans = _spans(shape, whole, curve.closed)
-    if len(spans) > 1:
+    spans = _spans(shape, whole, curve.closed) if whole <= _ROUNDS * period else []
+    if len(spans) > 1 or whole > _ROUNDS * period:
         return Dashed("dashed", curve)
     if not spans:
         return Dashed("less", None)
     ((start, end),) = spans
-    if end - start >= whole:
-        return Dashed("whole", curve)
     turns = len(curve.cubics)
     first, last = (
         float(np.interp(place % whole if place > whole else place, along, at)) + turns * (place > whole)
         for place in (start, end)
     )
     part = stretches(curve.cubics, [first], [last])[0]
+    if end - start >= whole:
+        return Dashed("whole", curve)
     return Dashed("less", None if part is None else Curve(part, closed=False))
 
 

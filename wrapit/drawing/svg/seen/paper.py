@@ -15,8 +15,8 @@ from wrapit.geometry import FloatArray, IntArray
 WHITE = 230 / 255
 # Two colours that differ less in each of red, green and blue are one to the eye: as pale grey on white.
 _ALIKE = 1 - WHITE
-# A line darker than this (relative luminance, of which red makes 0.21, green 0.72, blue 0.07) shows that a page of
-# no colour is meant to be light; on a dark page it would hardly be seen.
+# A line darker than this (relative luminance, of which red makes 0.21, green 0.72, blue 0.07) shows that a
+# page of no colour is meant to be light; on a dark page it would hardly be seen.
 _DARK = 0.5
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # What shows less of what is behind it hides it.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from wrapit.drawing.svg.reading.programs import Program, Task, how
 from wrapit.drawing.svg.seen.losses import Loss, What
 from wrapit.errors import Finding, Level
 
@@ -19,7 +20,8 @@ _WORDS: dict[What, tuple[Level, str, str, str]] = {
     "hidden": (
         "warning",
         "{mm} mm of lines lie hidden under other ink and are left out, as they are not seen",
-        "{mm} mm of lines ({count} stretches) lie hidden under other ink and are left out, as they are not seen",
+        "{mm} mm of lines ({count} stretches) lie hidden under other ink and are left out, as "
+        "they are not seen",
         "if they are meant, move them to the front, or delete what lies over them",
     ),
     "erasing": (
@@ -54,16 +56,21 @@ _WORDS: dict[What, tuple[Level, str, str, str]] = {
     ),
 }
 
+# What is to be done about it in the program that made the file.
+TASKS: dict[What, Task] = {"clipped": "clip", "hidden": "order", "masked": "mask", "undrawn": "dash"}
 
-def told(losses: list[Loss], mm_per_px: float) -> list[Finding]:
-    """A finding for each kind of loss: how much in all, and where the longest are, in px and lines of the file."""
+
+def told(losses: list[Loss], mm_per_px: float, program: Program) -> list[Finding]:
+    """A finding for each kind of loss: how much in all, and where the longest are, in px and by line."""
     kinds = dict.fromkeys(loss.what for loss in losses)
-    return [_told([loss for loss in losses if loss.what == kind], mm_per_px) for kind in kinds]
+    return [_told([loss for loss in losses if loss.what == kind], mm_per_px, program) for kind in kinds]
 
 
-def _told(losses: list[Loss], mm_per_px: float) -> Finding:
+def _told(losses: list[Loss], mm_per_px: float, program: Program) -> Finding:
     """The finding for losses of one kind."""
     level, one, several, remedy = _WORDS[losses[0].what]
+    if (task := TASKS.get(losses[0].what)) is not None:
+        remedy = how(task, program, remedy)
     longest = sorted(losses, key=lambda loss: -loss.length_px)[:NAMED]
     length = mm_per_px * sum(loss.length_px for loss in losses)
     names = list(dict.fromkeys(loss.name for loss in losses))

@@ -12,8 +12,8 @@ from wrapit.drawing.svg.seen.paper import erasing
 from wrapit.drawing.svg.seen.parting import length, middle
 from wrapit.drawing.svg.seen.regions import Regions
 
-# In widths: a stroke that is shorter is a dot to the eye, its caps are all of it. Icons write dots as lines of
-# 0.004 to 0.01 widths; the shortest strokes meant as lines are 0.5 wide.
+# In widths: a stroke that is shorter is a dot to the eye, its caps are all of it. Icons write dots as lines
+# of 0.004 to 0.01 widths; the shortest strokes meant as lines are 0.5 wide.
 _DOT = 0.1
 
 
