@@ -12,7 +12,8 @@ from wrapit.geometry.polyline import evenly
 _POINTS = 129
 # How near the curve comes to the mean, in distances of the two strokes: far less than they differ.
 _NEAR = 0.02
-# Which share of a loop its closing is spread over, and where along it its end is looked for.
+# Which share of a loop its closing is spread over, and where along it its end is looked for: programs
+# overshoot by up to an eighth.
 _CLOSING, _LATE = 0.15, 0.75
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from wrapit.drawing.svg.programs import Program, Task, how
 from wrapit.drawing.svg.reading.model import Missing, Omission, Page, Shape
-from wrapit.drawing.svg.reading.programs import Program, Task, how
 from wrapit.drawing.svg.seen.losses import Loss, What
 from wrapit.drawing.svg.seen.parting import middle
 from wrapit.drawing.svg.seen.told import NAMED, TASKS
 from wrapit.errors import DrawingError, Finding
 
+# What helps where a file refers to another.
 _NO_COPY = "embed it in the file, or remove it"
 
 # Of each kind: the code of the finding, one and several of them, and the remedy.

@@ -15,7 +15,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.hand_doubles import without_hand_doubles
 from wrapit.drawing.svg.planar import planar
-from wrapit.drawing.svg.reading.programs import SKETCHED
+from wrapit.drawing.svg.programs import SKETCHED
 from wrapit.drawing.svg.remarks import of_fills
 from wrapit.drawing.svg.seen.told import told
 from wrapit.drawing.svg.strokes import Strokes, read_strokes

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from wrapit.drawing.signatures import kind_of
+from wrapit.drawing.svg.programs import Program, program_of
 from wrapit.drawing.svg.reading.element import SVG, XLINK, Element
-from wrapit.drawing.svg.reading.programs import Program, program_of
 from wrapit.errors import DrawingError
 
 # What is no drawing but a burden? Far more than any drawing holds; parsing as much takes seconds.

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from wrapit.drawing.svg.planar import Curve
+from wrapit.drawing.svg.programs import Program
 from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant, inverse
 from wrapit.drawing.svg.reading.paints import Colour
-from wrapit.drawing.svg.reading.programs import Program
 from wrapit.geometry import FloatArray
 
 # What of a file is not drawn as a browser would draw it.

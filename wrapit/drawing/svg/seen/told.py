@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wrapit.drawing.svg.reading.programs import Program, Task, how
+from wrapit.drawing.svg.programs import Program, Task, how
 from wrapit.drawing.svg.seen.losses import Loss, What
 from wrapit.errors import Finding, Level
 
