@@ -24,8 +24,9 @@ from wrapit.geometry.polyline import total_length
 # get? With its own settings (roughness up to 1.5) by 5 px in drawings of 300, and by a fifth of short ones.
 _APART_OF_SIZE = 0.02
 _APART_OF_LENGTH = 0.25
-# And in stroke widths: nobody takes strokes for one that have room for several more between them.
-_APART_WIDTHS = 6.0
+# And in stroke widths: small drawings wobble as many px as large ones; and nobody takes strokes for one that
+# have room for several more between them.
+_LEAST_WIDTHS, _APART_WIDTHS = 3.0, 6.0
 # Which share of all length has to come in pairs? All of it does in these programs, but for what fills areas.
 _SHARE = 0.7
 # In widths: shorter strokes are marks, of which two side by side are meant.
@@ -68,20 +69,20 @@ def without_hand_doubles(
     `by_program` says that a sketching program made the file, whose strokes may share their ends exactly.
     """
     lines = [_line_of(curve) for curve in curves]
-    wide = min(_APART_OF_SIZE * size, _APART_WIDTHS * width)
+    wide = float(np.clip(_APART_OF_SIZE * size, _LEAST_WIDTHS * width, _APART_WIDTHS * width))
     sketched = [
         (k, k + 1)
         for k in range(len(curves) - 1)
-        if owners[k] == owners[k + 1]
-        and _is_sketched(lines[k], lines[k + 1], max(wide, width), width, by_program)
+        if owners[k] == owners[k + 1] and _is_sketched(lines[k], lines[k + 1], wide, width, by_program)
     ]
     sketched = _disjoint(sketched)
     paired = sum(lines[k].length + lines[m].length for k, m in sketched)
-    pairs = sketched if paired >= _SHARE * sum(line.length for line in lines) else _close(lines, width)
+    is_sketch = paired >= _SHARE * sum(line.length for line in lines)
+    pairs, most = (sketched, wide) if is_sketch else (_close(lines, width), width)
     if not pairs:
         return Doubles(curves, [], 0.0)
     second = {m for _, m in pairs}
-    merged = {k: _mean(curves[k], curves[m], lines[k], lines[m]) for k, m in pairs}
+    merged = {k: _mean(curves[k], curves[m], lines[k], lines[m], most) for k, m in pairs}
     apart = max(_distance(lines[k], lines[m]) for k, m in pairs)
     kept = [merged.get(k, curve) for k, curve in enumerate(curves) if k not in second]
     told = [(lines[k].points[len(lines[k].points) // 2], lines[k].length) for k, _ in pairs]
@@ -174,10 +175,10 @@ def _close(lines: list[_Line], width: float) -> list[tuple[int, int]]:
     return _disjoint(found) if wobbly else []
 
 
-def _mean(one: Curve, other: Curve, line: _Line, beside: _Line) -> Curve:
-    """The mean of two strokes."""
+def _mean(one: Curve, other: Curve, line: _Line, beside: _Line, most: float) -> Curve:
+    """The mean of two strokes that lie at most so far apart."""
     apart = _distance(line, beside)
-    if _is_loop(line, max(apart, 1e-9)) and _is_loop(beside, max(apart, 1e-9)):
+    if _is_loop(line, most) and _is_loop(beside, most):
         return Curve(mean_loop(line.points, beside.points, apart), closed=True)
     ends = line.points[[0, -1]]
     ahead = np.linalg.norm(ends - beside.points[[0, -1]], axis=1).max()
