@@ -35,6 +35,9 @@ _SHORTEST = 3.0
 _ONE_INK = 0.3
 # In widths: ends so near to each other are in one place on purpose.
 _SAME_PLACE = 0.1
+# In distances of the strokes: how far apart the ends of two means lie in one corner, each off by half a distance
+# and a little more.
+_CORNER = 1.5
 # Two lines are parallel on purpose where their distance changes by less than this share of it.
 _CONSTANT = 0.15
 # A loop drawn by hand overshoots its beginning by up to an eighth of its length, or misses it by as much
@@ -198,7 +201,7 @@ def _met(curves: list[Curve], merged: set[int], apart: float) -> list[Curve]:
     if not open_ones:
         return curves
     ends = np.concatenate([curves[k].cubics[[0, -1], [0, -1]] for k in open_ones])
-    group = fcluster(linkage(ends, "complete"), apart, "distance") if len(ends) > 1 else np.ones(1)
+    group = fcluster(linkage(ends, "complete"), _CORNER * apart, "distance") if len(ends) > 1 else np.ones(1)
     places = {name: ends[group == name].mean(axis=0) for name in set(group.tolist())}
     found = list(curves)
     for row, k in enumerate(open_ones):
