@@ -35,8 +35,8 @@ _SHORTEST = 3.0
 _ONE_INK = 0.3
 # In widths: ends so near to each other are in one place on purpose.
 _SAME_PLACE = 0.1
-# In distances of the strokes: how far apart the ends of two means lie in one corner, each off by half a distance
-# and a little more.
+# In distances of the strokes: how far apart the ends of two means lie in one corner, each off by half a
+# distance and a little more.
 _CORNER = 1.5
 # Two lines are parallel on purpose where their distance changes by less than this share of it.
 _CONSTANT = 0.15
