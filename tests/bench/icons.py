@@ -38,11 +38,12 @@ def chosen(folder: Path, most: int | None) -> list[Path]:
 
 def judged(verdict: Verdict) -> str:
     """In a few words, how a reading stands to the ink."""
-    if verdict.shares.extra >= HARMLESS + verdict.linked:
+    told = {finding.code for finding in verdict.findings} - ABOUT_LINES
+    # Dashed lines are read whole, and say so: between the dashes there is no ink.
+    if verdict.shares.extra >= HARMLESS + verdict.linked and "dashed" not in told:
         return "curves outside the ink"
     if verdict.true:
         return "as drawn"
-    told = {finding.code for finding in verdict.findings} - ABOUT_LINES
     return "less, and said so" if told else "ink missing, not a word"
 
 

@@ -57,7 +57,7 @@ def test_names_that_no_file_can_have_are_refused(tmp_path, name):
     [
         ("a.heic", "share menu"),
         ("a.ai", "untick 'Preserve Illustrator"),
-        ("a.svgz", "Plain SVG"),
+        ("a.pdf", "Plain SVG"),
         ("a.dxf", "Inkscape"),
         ("a.cdr", "CorelDRAW"),
         ("a.xcf", "Export As"),

@@ -46,7 +46,7 @@ _BRANDS = {
 _SUFFIXES = {
     ".heic": "HEIC", ".heif": "HEIC", ".avif": "AVIF", ".jxl": "JPEG XL", ".jp2": "JPEG 2000",
     ".pdf": "PDF", ".eps": "PostScript (EPS)", ".ps": "PostScript (EPS)", ".ai": "Illustrator",
-    ".svgz": "compressed SVG", ".dxf": "DXF", ".dwg": "AutoCAD DWG", ".cdr": "CorelDRAW",
+    ".dxf": "DXF", ".dwg": "AutoCAD DWG", ".cdr": "CorelDRAW",
     ".psd": "Photoshop (PSD)", ".psb": "Photoshop (PSD)", ".xcf": "GIMP (XCF)", ".kra": "Krita",
     ".procreate": "Procreate", ".clip": "Clip Studio", ".pdn": "Paint.NET", ".fig": "Figma",
     ".sketch": "Sketch", ".afdesign": "Affinity", ".afphoto": "Affinity", ".af": "Affinity",
@@ -69,8 +69,7 @@ _EXPORTS = {
     "PostScript (EPS)": f"{_PLAIN_SVG}, or in Illustrator save it as SVG (File > Save As)",
     "Illustrator": "in Illustrator choose File > Save As, SVG, and untick 'Preserve Illustrator Editing "
     "Capabilities'; or File > Export > Export As, PNG",
-    "compressed SVG": _PLAIN_SVG,
-    "gzip-compressed": f"unpack it, or if it is a compressed SVG, {_PLAIN_SVG}",
+    "gzip-compressed": "unpack it, or if it is a compressed SVG, name it .svgz",
     "DXF": _PLAIN_SVG,
     "AutoCAD DWG": "in the CAD program export it as PDF or DXF, then " + _PLAIN_SVG,
     "CorelDRAW": "in CorelDRAW choose File > Export, SVG or PNG",

@@ -33,7 +33,7 @@ def trace(path: Path, tracing: TracingConfig, size_mm: float | None) -> tuple[Dr
         from wrapit.drawing.json_file import read_drawing
 
         return read_drawing(path, size_mm), ()
-    if suffix == ".svg":
+    if suffix in (".svg", ".svgz"):
         from wrapit.drawing.svg.stage import trace_svg
 
         return trace_svg(path, tracing, size_mm)

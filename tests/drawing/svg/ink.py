@@ -130,12 +130,14 @@ def against_ink(path: Path, tracing: TracingConfig | None = None, longest_px: in
         what: sum(removal.length_mm for removal in drawing.removed if removal.what == what)
         for what in ("piece", "link")
     }
-    whole = max(told["piece"] + drawing.length_mm, 1e-9)
+    # The caps of what is left out are ink as well: half a width at each end.
+    caps = (drawing.stroke_width_mm or 0.0) * sum(removal.what == "piece" for removal in drawing.removed)
+    whole = max(told["piece"] + caps + drawing.length_mm, 1e-9)
     found = _placed(drawing, ink, zoom / MM_PER_PX)
     if not found.alike:
         # A file without a size has no mm: the ink's and the curves' boxes say how many.
         found = min(found, _placed(drawing, ink, _px_per_mm(drawing, ink)), key=lambda s: s.missed + s.extra)
-    return Verdict(found, told["piece"] / whole, told["link"] / whole, findings)
+    return Verdict(found, (told["piece"] + caps) / whole, told["link"] / whole, findings)
 
 
 def _px_per_mm(drawing: Drawing, ink: Ink) -> float:
@@ -159,7 +161,9 @@ def _placed(drawing: Drawing, ink: Ink, px_per_mm: float) -> Shares:
     np.add.at(line, tuple(np.maximum(np.floor(along).astype(int), 0)[:, ::-1].T), 1.0)
     line = np.minimum(line, 1.0)
     # Off the ink each pixel costs, so that a part of the drawing isn't hidden in a broad stroke.
-    deep = distance_transform_edt(ink) - np.minimum(distance_transform_edt(~ink), 8.0)
+    # A line is no deeper in ink than it is wide: the middle of a filled shape draws no outline to it.
+    half = max(1.0, (drawing.stroke_width_mm or np.inf) * px_per_mm / 2)
+    deep = np.minimum(distance_transform_edt(ink), half) - np.minimum(distance_transform_edt(~ink), 8.0)
     match = fftconvolve(deep, line[::-1, ::-1], mode="full")
     row, column = np.unravel_index(int(np.argmax(match)), match.shape)
     shift = np.array([column - line.shape[1] + 1, row - line.shape[0] + 1], dtype=np.float64)

@@ -134,7 +134,10 @@ def test_too_many_parts_are_refused_with_their_number(tmp_path, body):
         (b'<svg xmlns="http://example.com"><path d="M0 0"/></svg>', "no SVG"),
         (b"<!DOCTYPE html><html><p>hello<br></html>", "web page"),
         (b"\xef\xbb\xbf <html><svg/></html>", "web page"),
-        (gzip.compress(svg(CROSS)), "svgz"),
+        (gzip.compress(svg(CROSS))[:-20], "cut off"),
+        (gzip.compress(svg(CROSS))[:9] + b"nothing", "damaged"),
+        (gzip.compress(b" " * 60_000_000), "50 MB when unpacked"),
+        (gzip.compress(b"<html/>"), "web page"),
         (b"\x89PNG\r\n\x1a\n", "PNG"),
         (b"%PDF-1.7", "PDF"),
         (svg(CROSS) + b"\0", "not valid XML"),
@@ -149,6 +152,13 @@ def test_too_many_parts_are_refused_with_their_number(tmp_path, body):
 )
 def test_what_is_no_svg_is_refused_in_words(tmp_path, data, reason):
     assert reason in refusal(tmp_path, data)
+
+
+@pytest.mark.parametrize("name", ["drawing.svgz", "drawing.svg"])
+def test_a_compressed_file_is_read_as_what_it_holds(tmp_path, name):
+    (tmp_path / name).write_bytes(gzip.compress(svg(CROSS)))
+    compressed = trace(tmp_path / name, TracingConfig(), None)[0]
+    assert drawing_json(compressed) == drawing_json(read(tmp_path, svg(CROSS)))
 
 
 @pytest.mark.parametrize(

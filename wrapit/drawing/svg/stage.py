@@ -13,7 +13,11 @@ from wrapit.drawing.components import LONGEST_LINK, connect
 from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.svg.duplicates import without_coincident
+from wrapit.drawing.svg.hand_doubles import without_hand_doubles
 from wrapit.drawing.svg.planar import planar
+from wrapit.drawing.svg.programs import SKETCHED
+from wrapit.drawing.svg.remarks import of_fills
+from wrapit.drawing.svg.seen.told import told
 from wrapit.drawing.svg.strokes import Strokes, read_strokes
 from wrapit.errors import DrawingError, Finding
 from wrapit.geometry import FloatArray
@@ -49,8 +53,12 @@ def trace_svg(
         raise DrawingError("the lines have no length", str(path), "draw at least one line")
     _refuse_absurd(points, size, strokes, size_mm, path)
     reach = _REACH * strokes.width_px if strokes.width_px else _REACH_SHARE * size
-    curves, doubles = without_coincident(strokes.curves, min(reach, _MOST * size) / _REACH)
-    graph = planar(curves, min(reach, _MOST * size), tracing.corner_angle, str(path))
+    reach = min(reach, _MOST * size)
+    sketched = strokes.page.program in SKETCHED
+    by_hand = without_hand_doubles(strokes.curves, strokes.owners, reach / _REACH, size, sketched)
+    curves, doubles = without_coincident(by_hand.curves, reach / _REACH)
+    # Where lines wobble, their ends miss each other by as much.
+    graph = planar(curves, max(reach, by_hand.apart), tracing.corner_angle, str(path))
     if not graph.pieces:
         raise DrawingError("the drawing has no lines", str(path), "draw at least one line")
     changes = [Change("stub", _pair(at), length, "ends just behind a joint") for at, length in graph.stubs]
@@ -72,6 +80,8 @@ def trace_svg(
         x, y = where.points(np.array(notice.at_px))
         place = f"at ({notice.at_px[0]:.1f}, {notice.at_px[1]:.1f}) px, ({x:.1f}, {y:.1f}) mm"
         findings.append(Finding(notice.level, notice.code, place, notice.message, notice.remedy))
+    if by_hand.pairs:
+        findings.append(_by_hand(by_hand.pairs, where.scale))
     if doubles:
         length = where.scale * sum(length for _, length in doubles)
         findings.append(
@@ -83,29 +93,22 @@ def trace_svg(
                 "edge; each is taken once",
             )
         )
-    if strokes.clipped:
-        longest, _ = max(strokes.clipped, key=lambda part: part[1])
-        total = where.scale * sum(length for _, length in strokes.clipped)
-        findings.append(
-            Finding(
-                "warning",
-                "clipped",
-                f"at ({longest[0]:.1f}, {longest[1]:.1f}) px",
-                f"{total:.1f} mm of lines lie outside of the page, or are clipped away, and are left out",
-                "enlarge the page to the drawing, or release the clip",
-            )
-        )
-    if strokes.filled:
-        findings.append(
-            Finding(
-                "warning",
-                "filled-shapes",
-                "drawing",
-                f"{strokes.filled} filled shapes without a stroke are left out",
-                "give them a stroke, or set tracing.filled to outline",
-            )
-        )
+    findings += told(strokes.losses, where.scale, strokes.page.program)
+    findings += of_fills(strokes.filled, strokes.solid, tracing.filled, strokes.page.program)
     return drawing, tuple(findings)
+
+
+def _by_hand(pairs: list[tuple[FloatArray, float]], mm_per_px: float) -> Finding:
+    longest, _ = max(pairs, key=lambda pair: pair[1])
+    whole = mm_per_px * sum(length for _, length in pairs)
+    lines = "1 line is" if len(pairs) == 1 else f"{len(pairs)} lines are"
+    return Finding(
+        "note",
+        "drawn-twice-by-hand",
+        f"at ({longest[0]:.1f}, {longest[1]:.1f}) px",
+        f"{lines} drawn as two wobbly strokes ({whole:.1f} mm), as by hand; the mean of both is taken",
+        "if both strokes are meant, move them farther apart than they are wide",
+    )
 
 
 def _refuse_absurd(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -107,14 +107,16 @@ def steps_of(curves: list[FloatArray]) -> Steps:
     )
 
 
-def queried(tree: Any, count: int, shapes: Callable[[slice], Any]) -> Iterator[tuple[IntArray, IntArray]]:
-    """Which of `count` shapes meet which of a tree's, by their boxes: numbers of both, in portions.
+def queried(
+    tree: Any, count: int, shapes: Callable[[slice], Any], how: Literal["intersects"] | None = None
+) -> Iterator[tuple[IntArray, IntArray]]:
+    """Which of `count` shapes meet which of a tree's, by their boxes or truly: numbers of both, in portions.
 
     The portions get smaller where very many lie on each other, so that memory stays bounded.
     """
     begin, size = 0, _FIRST
     while begin < count:
-        first, second = tree.query(shapes(slice(begin, begin + size)))
+        first, second = tree.query(shapes(slice(begin, begin + size)), predicate=how)
         yield first + begin, second
         begin += size
         size = min(4 * size, max(1, size * _AT_ONCE // max(len(first), 1)))

@@ -7,11 +7,13 @@ prefixes that nobody declared).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from wrapit.drawing.signatures import kind_of
+from wrapit.drawing.svg.programs import Program, program_of
 from wrapit.drawing.svg.reading.element import SVG, XLINK, Element
 from wrapit.errors import DrawingError
 
@@ -30,8 +32,17 @@ _HEAD = 4_000
 _XML_PREFIXES = {"xml": "http://www.w3.org/XML/1998/namespace", "xlink": XLINK, "svg": SVG}
 
 
-def read_document(path: Path) -> tuple[Element, list[tuple[int, str]]]:
-    """The root of an SVG file, and the style sheets of other files that it names, with the line of each.
+@dataclass(frozen=True, eq=False)
+class Document:
+    """The root of an SVG file, the style sheets of other files that it names (line, text), its program."""
+
+    root: Element
+    sheets: list[tuple[int, str]]
+    program: Program
+
+
+def read_document(path: Path) -> Document:
+    """The elements of an SVG file, and what it says of itself.
 
     Raises DrawingError where it can't be read, is no SVG, or could grow without end.
     """
@@ -45,7 +56,12 @@ def read_document(path: Path) -> tuple[Element, list[tuple[int, str]]]:
         raise DrawingError(
             f"the file holds no SVG drawing: its outermost element is <{name[:40]}>", str(path), _PLAIN
         )
-    return root, builder.sheets
+    # What programs say of themselves: comments, their own languages, and names and descriptions at the top.
+    said = [root.get("id", "")]
+    # Of all programs only Canva writes how a viewer may zoom.
+    said += ["Canva"] if root.get("zoomAndPan") == "magnify" else []
+    said += [element.text or "" for element in root if element.tag.endswith(("}title", "}desc"))]
+    return Document(root, builder.sheets, program_of([*builder.traces, *said]))
 
 
 def _bytes(path: Path) -> bytes:
@@ -56,16 +72,33 @@ def _bytes(path: Path) -> bytes:
     except OSError as error:
         reason = error.strerror or "the system gives no reason"
         raise DrawingError(f"the SVG file can't be read ({reason.lower()})", str(path), _PLAIN) from None
+    if kind_of(data) == "gzip-compressed":
+        data = _unpacked(data, path)
     if not data.strip():
         raise DrawingError("the SVG file is empty", str(path), "save it again")
     kind = kind_of(data)
-    if kind == "gzip-compressed":
-        raise DrawingError("the SVG file is compressed (svgz)", str(path), f"unpack it, or {_PLAIN}")
     if kind == "HTML":
         raise DrawingError("the file is a web page, no SVG drawing", str(path), _PICTURE)
     if kind not in (None, "SVG"):
         raise DrawingError(f"the file is no SVG drawing but {kind}", str(path), "name it by its kind")
     return data
+
+
+def _unpacked(data: bytes, path: Path) -> bytes:
+    """What a compressed SVG file (svgz) holds; only as much is unpacked as an SVG file may have."""
+    import zlib
+
+    # 16 + 15: gzip's head, and its largest window.
+    unpacking = zlib.decompressobj(wbits=31)
+    try:
+        found = unpacking.decompress(data, _LARGEST_BYTES)
+    except zlib.error:
+        raise DrawingError("the compressed SVG file is damaged", str(path), "save it again") from None
+    if unpacking.unconsumed_tail:
+        raise DrawingError("the SVG file is larger than 50 MB when unpacked", str(path), "simplify it")
+    if not unpacking.eof:
+        raise DrawingError("the compressed SVG file is cut off", str(path), "save or copy it again")
+    return found
 
 
 def _parsed(data: bytes, path: Path) -> _Builder:
@@ -111,6 +144,7 @@ class _Builder:
 
         self.root: Element
         self.sheets: list[tuple[int, str]] = []
+        self.traces: list[str] = []
         self._parser, self._data, self._path = parser, data, path
         self._open: list[Element] = []
         self._scopes: list[dict[str, str]] = [_XML_PREFIXES]
@@ -127,6 +161,7 @@ class _Builder:
         parser.EntityDeclHandler = self._entity
         parser.AttlistDeclHandler = self._default
         parser.ProcessingInstructionHandler = self._instruction
+        parser.CommentHandler = self.traces.append
 
     def _where(self) -> str:
         return f"{self._path}:{self._parser.CurrentLineNumber}"
@@ -150,6 +185,7 @@ class _Builder:
             declared.setdefault("", SVG)
         if declared:
             scope = {**scope, **declared}
+            self.traces += declared.values()
         self._scopes.append(scope)
         named = {
             _qualified(key, scope) if ":" in key else key: value

@@ -34,6 +34,11 @@ class Links:
             self.target(value[4:].partition(")")[0].strip(" \t\n\"'")) if value.startswith("url(") else None
         )
 
+    def mask(self, declared: dict[str, str]) -> str:
+        """The name of the mask that declarations give, if there is one."""
+        target = self.named_in(declared.get("mask", ""))
+        return target.get("id", "") if target is not None and target.name == "mask" else ""
+
     def is_endless(self, use: Element) -> bool:
         """Whether what a `use` copies contains the `use` itself, over however many others."""
         return id(use) in self._endless

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from wrapit.drawing.svg.planar import Curve
+from wrapit.drawing.svg.programs import Program
 from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant, inverse
 from wrapit.drawing.svg.reading.paints import Colour
 from wrapit.geometry import FloatArray
@@ -46,7 +47,8 @@ class Clip:
 class Shape:
     """One thing that is painted: first its fill, then its stroke. All lengths in px, after all transforms.
 
-    `dots` (n, 2) are subpaths without length. A point is seen that lies in all `clips`.
+    `dots` (n, 2) are subpaths without length. `dashes` and gaps follow in turn, from `dash_offset` on, anew
+    for each curve; none for a whole line. A point is seen that lies in all `clips`; `mask` is a mask's name.
     """
 
     tag: str
@@ -61,18 +63,22 @@ class Shape:
     clip_rule: str = "nonzero"
     cap: str = "butt"
     join: str = "miter"
-    dashed: bool = False
-    masked: bool = False
+    dashes: tuple[float, ...] = ()
+    dash_offset: float = 0.0
+    mask: str = ""
     shown: bool = True
     clips: tuple[Clip, ...] = ()
 
     def moved(self, matrix: Matrix) -> Shape:
         """The shape with its clips under a further transform."""
+        factor = abs(determinant(matrix)) ** 0.5
         return replace(
             self,
             curves=tuple(Curve(applied(matrix, curve.cubics), curve.closed) for curve in self.curves),
             dots=applied(matrix, self.dots),
-            stroke_width=self.stroke_width * abs(determinant(matrix)) ** 0.5,
+            stroke_width=self.stroke_width * factor,
+            dashes=tuple(factor * length for length in self.dashes),
+            dash_offset=factor * self.dash_offset,
             clips=tuple(Clip(tuple(shape.moved(matrix) for shape in clip.shapes)) for clip in self.clips),
         )
 
@@ -91,12 +97,15 @@ class Page:
     """All that a file paints, its size in px, and what is left out.
 
     `frame` is the edge of the page; None where the file says nothing of it, so that nothing lies outside.
+    `background` is the colour behind all, where the file gives one, `program` what made the file.
     """
 
     shapes: tuple[Shape, ...]
     size: tuple[float, float]
     frame: Clip | None
     omissions: tuple[Omission, ...] = field(default=())
+    background: Colour | None = None
+    program: Program = ""
 
 
 def box_within(shapes: Iterable[Shape], matrix: Matrix) -> tuple[float, float, float, float] | None:

@@ -10,7 +10,7 @@ import numpy as np
 from wrapit.drawing.svg.planar import Curve
 from wrapit.drawing.svg.reading import basic_shapes
 from wrapit.drawing.svg.reading.element import Element
-from wrapit.drawing.svg.reading.lengths import Measure, lengths_of
+from wrapit.drawing.svg.reading.lengths import Measure, lengths_of, number
 from wrapit.drawing.svg.reading.links import Links
 from wrapit.drawing.svg.reading.matrices import Matrix, applied, determinant
 from wrapit.drawing.svg.reading.model import Omission, Paint, Shape
@@ -20,6 +20,8 @@ from wrapit.drawing.svg.reading.pen import Subpath
 from wrapit.drawing.svg.reading.styles import Style
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
+from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.polyline import total_length
 
 # Parts of all lines together. Finding where as many cross takes a few seconds.
 MOST_PARTS = 20_000
@@ -27,6 +29,9 @@ MOST_PARTS = 20_000
 _LARGEST_PX = 1e12
 # Parts that are shorter (in px) are dots, or rounding.
 _SHORTEST_PX = 1e-9
+
+# Steps of a cubic whose length is measured: 1e-4 of a quarter circle too short.
+_LENGTH_SAMPLES = 32
 
 # How the outline of each basic shape is drawn; a path and lists of points have data instead.
 _BASIC: dict[str, Callable[[basic_shapes.Lengths], list[Subpath]]] = {
@@ -55,7 +60,7 @@ class Outliner:
         matrix: Matrix,
         measure: Measure,
         opacity: float,
-        masked: bool,
+        mask: str,
     ) -> Shape:
         """The shape of an element; neither filled nor stroked where it is not visible."""
         subpaths = self._subpaths(element, declared, measure)
@@ -63,11 +68,14 @@ class Outliner:
         fill = self._paint(style.fill, style, opacity * style.fill_opacity, flat)
         stroke = self._paint(style.stroke, style, opacity * style.stroke_opacity, flat)
         scaled = declared.get("vector-effect", "").strip().lower() != "non-scaling-stroke"
-        width = style.stroke_width * (abs(determinant(matrix)) ** 0.5 if scaled else 1.0)
+        factor = abs(determinant(matrix)) ** 0.5 if scaled else 1.0
+        width = style.stroke_width * factor
         if not style.visible or element.name == "line":
             fill = None
         if not style.visible or not width > 0:
             stroke = None
+        if stroke and style.dashes:
+            factor *= _stretched(element, subpaths)
         curves, dots = self._placed(subpaths, matrix, element, fill is not None or stroke is not None)
         if stroke and style.markers and element.name in ("path", "line", "polyline", "polygon"):
             self.omissions.append(Omission("markers", element.line))
@@ -84,8 +92,9 @@ class Outliner:
             clip_rule=style.clip_rule,
             cap=style.cap,
             join=style.join,
-            dashed=style.dashed,
-            masked=masked,
+            dashes=tuple(factor * length for length in style.dashes),
+            dash_offset=factor * style.dash_offset,
+            mask=mask,
             shown=style.visible,
         )
 
@@ -174,3 +183,12 @@ def _is_flat(subpaths: list[Subpath]) -> bool:
     points = [subpath.cubics.reshape(-1, 2) for subpath in subpaths]
     with np.errstate(over="ignore", invalid="ignore"):
         return bool(points) and bool((np.ptp(np.concatenate(points), axis=0) == 0).any())
+
+
+def _stretched(element: Element, subpaths: list[Subpath]) -> float:
+    """By how much longer a line is than its `pathLength`, which dashes are measured by (SVG 2, 9.6.1)."""
+    said = number(element.get("pathLength"))
+    if not said or said < 0:
+        return 1.0
+    t = np.linspace(0, 1, _LENGTH_SAMPLES + 1)
+    return sum(total_length(line) for subpath in subpaths for line in evaluate(subpath.cubics, t)) / said

@@ -75,3 +75,13 @@ def paint_value(text: str) -> PaintValue | None:
     # A colour for print may follow the colour for screens.
     known = colour(text) or (colour(text.partition("icc-color")[0].strip()) if "icc-color" in text else None)
     return PaintValue("colour", known) if known else None
+
+
+def background(declared: dict[str, str]) -> Colour | None:
+    """The colour that CSS puts behind a page; None where there is none to see."""
+    for name in ("background-color", "background"):
+        for word in (declared.get(name, ""), *declared.get(name, "").split()):
+            known = colour(word.strip())
+            if known and known[3] > 0:
+                return known
+    return None

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from wrapit.drawing.svg.reading import paints
 from wrapit.drawing.svg.reading.css import Cascade
 from wrapit.drawing.svg.reading.document import DEEPEST, read_document
 from wrapit.drawing.svg.reading.element import Element, chosen, met
@@ -50,7 +51,7 @@ class _Frame:
     style: Style
     measure: Measure
     opacity: float = 1.0
-    masked: bool = False
+    mask: str = ""
     depth: int = 0
 
 
@@ -59,8 +60,9 @@ def read_page(path: Path) -> Page:
 
     Raises DrawingError where the file can't be read, is no SVG, or would take too long.
     """
-    root, sheets = read_document(path)
-    return _Scene(root, path).page([Omission("style-sheet", line, text[:40]) for line, text in sheets])
+    document = read_document(path)
+    omissions = [Omission("style-sheet", line, text[:40]) for line, text in document.sheets]
+    return replace(_Scene(document.root, path).page(omissions), program=document.program)
 
 
 class _Scene:
@@ -90,6 +92,7 @@ class _Scene:
             (width, height),
             frame,
             (*omissions, *self._omissions, *self._outliner.omissions),
+            paints.background(declared),
         )
 
     def _element(
@@ -113,7 +116,7 @@ class _Scene:
             style=style,
             measure=replace(measure, font=style.font),
             opacity=around.opacity * (1.0 if opacity is None else min(1.0, max(0.0, opacity))),
-            masked=around.masked or self._masks(declared),
+            mask=around.mask or self._links.mask(declared),
             depth=around.depth + 1,
         )
         if frame.opacity <= 0:
@@ -138,7 +141,7 @@ class _Scene:
         if name in OUTLINED:
             return [
                 self._outliner.shape(
-                    element, declared, frame.style, frame.matrix, frame.measure, frame.opacity, frame.masked
+                    element, declared, frame.style, frame.matrix, frame.measure, frame.opacity, frame.mask
                 )
             ]
         if name in _GROUPS:
@@ -261,10 +264,6 @@ class _Scene:
         drawn = self._children([e for e in element.inside if e.name in (*OUTLINED, "use")], inner)
         drawn = [replace(shape, fill_rule=shape.clip_rule) for shape in drawn if shape.shown]
         return Clip(tuple(self._clipped(declared, replace(inner, matrix=frame.matrix), drawn)))
-
-    def _masks(self, declared: dict[str, str]) -> bool:
-        target = self._links.named_in(declared.get("mask", ""))
-        return target is not None and target.name == "mask"
 
     def _refuse_endless(self, element: Element, depth: int) -> None:
         self._count += 1

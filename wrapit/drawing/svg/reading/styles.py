@@ -33,7 +33,8 @@ class Style:
     clip_rule: str = "nonzero"
     cap: str = "butt"
     join: str = "miter"
-    dashed: bool = False
+    dashes: tuple[float, ...] = ()
+    dash_offset: float = 0.0
     visible: bool = True
     markers: str = ""
 
@@ -132,7 +133,7 @@ def _share(text: str, _: Measure) -> float | None:
     return None if found is None else min(1.0, max(0.0, found))
 
 
-def _stroke_width(text: str, measure: Measure) -> float | None:
+def _length(text: str, measure: Measure) -> float | None:
     return length(text, measure, "both")
 
 
@@ -140,10 +141,15 @@ def _word(text: str, _: Measure) -> str:
     return text.strip().lower()
 
 
-def _dashed(text: str, _: Measure) -> bool:
-    """Whether there are gaps: all dashes zero, or one negative, draw a whole line."""
-    found = [value for value, _ in numbers(text) or ()]
-    return min(found, default=0.0) >= 0 and any(gap > 0 for gap in found[1::2] or found)
+def _dashes(text: str, measure: Measure) -> tuple[float, ...]:
+    """Dashes and gaps in turn; none for a whole line: without a gap, or with a length that is no length."""
+    found = [measure.user_units(amount, unit, "both") for amount, unit in numbers(text) or ()]
+    known = [each for each in found if each is not None and each >= 0]
+    if len(known) < len(found):
+        return ()
+    if len(known) % 2:
+        known *= 2
+    return tuple(known) if any(gap > 0 for gap in known[1::2]) else ()
 
 
 def _visible(text: str, _: Measure) -> bool:
@@ -157,12 +163,13 @@ _FIELDS: dict[str, tuple[str, Callable[[str, Measure], object]]] = {
     "stroke": ("stroke", _paint),
     "fill-opacity": ("fill_opacity", _share),
     "stroke-opacity": ("stroke_opacity", _share),
-    "stroke-width": ("stroke_width", _stroke_width),
+    "stroke-width": ("stroke_width", _length),
     "fill-rule": ("fill_rule", _word),
     "clip-rule": ("clip_rule", _word),
     "stroke-linecap": ("cap", _word),
     "stroke-linejoin": ("join", _word),
-    "stroke-dasharray": ("dashed", _dashed),
+    "stroke-dasharray": ("dashes", _dashes),
+    "stroke-dashoffset": ("dash_offset", _length),
     "visibility": ("visible", _visible),
 }
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
