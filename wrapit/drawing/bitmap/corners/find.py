@@ -26,10 +26,12 @@ _LEAST = 0.45
 _PROBE = 1.7
 # When are two places of most turning one corner? Where they are nearer than a width and a quarter.
 _TWICE = 1.25
-# A bend of a smaller radius can't be told from a corner, because the inner edge of the ink is one. With 0.49
-# true corners become bends: Hausdorff distance 0.28.
+# What may be a corner? A bend that is no rounder by its middle line; its outer edge decides. With 0.49 true
+# corners are not even looked at: Hausdorff distance 0.28.
 _ROUND = 0.7
-_CORNER = 0.3
+# When is it one? Where the radius by the outer edge is less. On grey edges, radii of 0.2 and of 0.4 are told
+# apart in 97 of 100 bends; 0.3 loses a tenth more corners, and no round bend less.
+_CORNER = 1 / 3
 # When is a side straight? Where a straight line misses it by hardly more than a quadratic: 1.2 times, and a
 # thousandth of a width.
 _STRAIGHT = 1.2
@@ -123,9 +125,7 @@ def _disturbed_middle(line: Line, at: int, least: float) -> float:
     return float(line.along[first] + line.along[last]) / 2
 
 
-def _corner(
-    line: Line, ink: Ink, width_px: float, place: float, start: float, end: float
-) -> Corner | None:
+def _corner(line: Line, ink: Ink, width_px: float, place: float, start: float, end: float) -> Corner | None:
     along = line.along - place
     near = min(_NEAR * width_px, 0.6 * (place - start), 0.6 * (end - place))
     sides = []
@@ -152,7 +152,9 @@ def _corner(
     if radius is None or radius < _CORNER:
         return Corner(apex[None], before, after, turn, True)
     bend = _arc(apex, arriving, leaving, turn, radius * usual)
-    return Corner(bend, before, after, turn, False)
+    # The sides may reach into the arc.
+    between = ((bend - line.points[before - 1]) @ arriving > 0) & ((line.points[after] - bend) @ leaving > 0)
+    return Corner(bend[between], before, after, turn, False) if between.any() else None
 
 
 def _arc(
