@@ -17,7 +17,7 @@ from wrapit.drawing.bitmap.cleanup import (
     tidy,
     without_pinholes,
 )
-from wrapit.drawing.bitmap.corners import split_corners
+from wrapit.drawing.bitmap.corners.stage import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
 from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
 from wrapit.drawing.bitmap.hard_edges.steady import steadied
@@ -128,7 +128,7 @@ def _traced(
     if tidy(graph, radius, width_px):
         lines = renewed(graph, lines, ink, width_px)
     close_gaps(graph, lines, ink, width_px)
-    split_corners(graph, lines, width_px, tracing.corner_angle)
+    split_corners(graph, lines, ink, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
     drop_short(graph, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
     if picture.stair_px:

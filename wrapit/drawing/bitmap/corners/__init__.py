@@ -1,0 +1,1 @@
+"""Corners and tight bends along a stroke."""
