@@ -16,7 +16,7 @@ from wrapit.geometry import FloatArray
 _FARTHEST = 3.0
 # Where is the cap's shape told? On lines up to 0.42 off the centre: a round cap ends a quarter of the width
 # earlier there, while the grey of a flat cap's corners is still farther out.
-_ASIDE = 0.42
+_ASIDE = 0.36
 _LINES = 9
 # How much of a circle's bulge does a flat end have, at most? Flat ones read 0.0 to 0.3, round ones 0.75 to 1.1.
 _FLAT = 0.5
@@ -41,8 +41,9 @@ def find_cap(start: FloatArray, ahead: FloatArray, width_px: float, ink: Ink) ->
     sides = np.array(edges(ink, start[None], across[None], width_px, 0.5))[:, 0]
     broad = float(sides.sum()) if np.isfinite(sides).all() else width_px
     broad = float(np.clip(broad, 0.6 * width_px, 1.5 * width_px))
+    middle = start + (sides[1] - sides[0]) / 2 * across if np.isfinite(sides).all() else start
     aside = np.linspace(-_ASIDE, _ASIDE, _LINES) * broad
-    ends = _ends(start + aside[:, None] * across, ahead, steps, ink)
+    ends = _ends(middle + aside[:, None] * across, ahead, steps, ink)
     if not np.isfinite(ends).all():
         return Cap(float(edge), broad, False)
     drop = broad / 2 - np.sqrt(broad**2 / 4 - aside**2)

@@ -19,7 +19,7 @@ from wrapit.drawing.bitmap.cleanup import (
 )
 from wrapit.drawing.bitmap.corners import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
-from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
+from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.steady import steadied
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.short import forks_apart
@@ -127,6 +127,7 @@ def _traced(
     contract_short(graph, radius, 1.0, forks_apart(graph, lines, width_px))
     if tidy(graph, radius, width_px):
         lines = renewed(graph, lines, ink, width_px)
+    cut_tails(graph, lines, ink, width_px)
     close_gaps(graph, lines, ink, width_px)
     split_corners(graph, lines, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
