@@ -14,6 +14,7 @@ from wrapit.drawing.bitmap.cleanup import (
     Radii,
     contract_short,
     drop_crumbs,
+    join_flat_ends,
     tidy,
     without_pinholes,
 )
@@ -116,6 +117,7 @@ def _traced(
     radius = Radii(skeleton.pixels, skeleton.distance)
     graph.rejoin_all()
     tidy(graph, radius, width_px)
+    join_flat_ends(graph, ink.mask, radius, width_px)
     refuse_other_pictures(ink, skeleton, graph, str(path), outlined=tracing.filled == "outline")
     contract_short(graph, radius, 0.35)
     tidy(graph, radius, width_px)
