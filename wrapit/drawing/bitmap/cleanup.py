@@ -22,6 +22,7 @@ _SPUR = 1.4
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
 # pixel or two more or less; those of a drawn fork are longer by half a width, or have paper between their tips.
 _CORNER = 1.9
+_BEFORE_TIPS = 0.75
 # What is a loop around nothing, and a speck of dirt? In stroke widths; the first was set on prototypes, the
 # second is a dot, no line.
 _SMALLEST_LOOP = 2.2
@@ -96,7 +97,9 @@ def join_flat_ends(
         ]
         if len(twigs) != 2:
             continue
-        one, other = (graph.nodes[tip] for _, tip in twigs)
+        # The tips themselves may be the ink's outermost pixels.
+        at = graph.nodes[node]
+        one, other = (at + _BEFORE_TIPS * (graph.nodes[tip] - at) for _, tip in twigs)
         between = one + np.linspace(0, 1, max(2, int(2 * reach)))[:, None] * (other - one)
         column, row = np.rint(between).astype(int).T
         if not mask[row, column].all():
