@@ -29,6 +29,7 @@ from wrapit.drawing.bitmap.overlaps.tips import open_tips
 from wrapit.drawing.bitmap.pairing import kinked, pair
 from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_picture
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
+from wrapit.drawing.bitmap.rings import ring_joints
 from wrapit.drawing.bitmap.skeleton import strand_graph_of, thin_within
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.drawing.changes import Change, Notice
@@ -223,7 +224,12 @@ def _fitted(
     graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float
 ) -> list[Piece]:
     endings: dict[tuple[int, int], Ending] = {}
+    rings = ring_joints(graph, lines, ink, width_px)
     for node in graph.nodes:
+        if node in rings:
+            graph.nodes[node], ends = rings[node]
+            endings |= ends
+            continue
         arms = arms_at(graph, lines, node, width_px)
         if len(arms) == 1:
             graph.nodes[node], ending = place_end(arms[0], ink)
