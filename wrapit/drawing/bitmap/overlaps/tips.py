@@ -35,6 +35,10 @@ _TAPERED = 0.8
 # to bend the edges. The sides are quadratics over 3 of length, as arms are.
 _TOLD = 0.15
 _SIDE = 3.0
+# When do both strokes of a tip tell its width? When theirs are one within 0.08, and within 0.2 of the picture's,
+# which is read from whole pixels: 7.7 for two strokes of 9 px. Of broad and thin strokes together none is a tip's.
+_SAME = 0.08
+_LIKE = 0.2
 # Beyond how much of its merged ink may a tip lie? The mitre of 10 degrees is 5.7 long, and as much again for
 # curved sides.
 _AHEAD = 12.0
@@ -81,6 +85,7 @@ def _open(
     walked = lines[strand].points if end == 0 else lines[strand].points[::-1]
     arms = [arm(lines[s], s, e, width_px) for s, e in graph.ends_at(node) if s != strand]
     outermost = _outermost(arms, walked)
+    width_px = _own_width(outermost, lines, width_px)
     sides = _sides(outermost, walked, ink, width_px)
     one, other = (side.model(width_px) for side in sides)
     found = crossing(one, other, _AHEAD * width_px, 0.05 * width_px)
@@ -103,6 +108,17 @@ def _open(
         if len(side.lead):
             known = np.ones(len(side.lead), dtype=bool)
             lead_to(graph, lines, side.arm, node, side.lead, known, width_px)
+
+
+def _own_width(arms: tuple[Arm, Arm], lines: dict[int, Line], width_px: float) -> float:
+    """The width of the strokes at a tip where both have one, and it is like the picture's; else that."""
+    broad = [
+        float(np.median(line.width[line.clean])) if line.clean.any() else width_px
+        for line in (lines[each.strand] for each in arms)
+    ]
+    mean = sum(broad) / 2
+    same = np.ptp(broad) < _SAME * mean and abs(mean - width_px) < _LIKE * width_px
+    return mean if same else width_px
 
 
 def _outermost(arms: list[Arm], walked: FloatArray) -> tuple[Arm, Arm]:
