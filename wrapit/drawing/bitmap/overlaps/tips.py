@@ -69,8 +69,10 @@ def open_tips(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: fl
             for strand, end in graph.ends_at(node)
             if graph.degree(graph.other_node(strand, end)) == 1 and lines[strand].length < _STEM * width_px
         ]
-        if len(stems) == 1:
-            _open(graph, lines, ink, width_px, node, stems[0])
+        # Short strokes may all be stems: that of a tip is the one where the others meet.
+        for stem in sorted(stems, key=lambda stem: lines[stem[0]].length):
+            if _open(graph, lines, ink, width_px, node, stem):
+                break
 
 
 def _open(
@@ -80,7 +82,8 @@ def _open(
     width_px: float,
     node: int,
     stem: StrandEnd,
-) -> None:
+) -> bool:
+    """Whether a stem is a tip's; then its fork is a corner now."""
     strand, end = stem
     walked = lines[strand].points if end == 0 else lines[strand].points[::-1]
     arms = [arm(lines[s], s, e, width_px) for s, e in graph.ends_at(node) if s != strand]
@@ -90,14 +93,14 @@ def _open(
     one, other = (side.model(width_px) for side in sides)
     found = crossing(one, other, _AHEAD * width_px, 0.05 * width_px)
     if found is None:
-        return
+        return False
     apex, first, second = found
     between_sides = angle(first, second)
     mitre = width_px / 2 / math.sin(max(between_sides, 0.1) / 2)
     if between_sides > math.pi / 2 or np.linalg.norm(walked[-1] - apex) > mitre + _REACHES * width_px:
-        return
+        return False
     if not _is_tip(apex, -unit(first + second), mitre, ink, width_px):
-        return
+        return False
     graph.note("spur", walked[-1], lines[strand].length, "the tip of an acute corner")
     graph.drop_strand(strand)
     del lines[strand]
@@ -108,6 +111,7 @@ def _open(
         if len(side.lead):
             known = np.ones(len(side.lead), dtype=bool)
             lead_to(graph, lines, side.arm, node, side.lead, known, width_px)
+    return True
 
 
 def _own_width(arms: tuple[Arm, Arm], lines: dict[int, Line], width_px: float) -> float:
