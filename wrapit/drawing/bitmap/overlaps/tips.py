@@ -31,6 +31,9 @@ _STEM = 13.0
 # halfway it is half as broad as the stroke, where a stroke that goes on is as broad as ever.
 _REACHES = 0.8
 _TAPERED = 0.8
+# How far beside the middle of both sides may the stem end? At the tips of 10 to 60 degrees tried it is below 0.3;
+# one that ends farther off is a stroke that leaves to another side.
+_ASTRAY = 0.4
 # Up to where do the outer edges tell two centres? Until these are as near as 0.15; then the round tip begins
 # to bend the edges. The sides are quadratics over 3 of length, as arms are.
 _TOLD = 0.15
@@ -99,7 +102,11 @@ def _open(
     mitre = width_px / 2 / math.sin(max(between_sides, 0.1) / 2)
     if between_sides > math.pi / 2 or np.linalg.norm(walked[-1] - apex) > mitre + _REACHES * width_px:
         return False
-    if not _is_tip(apex, -unit(first + second), mitre, ink, width_px):
+    ahead = -unit(first + second)
+    beyond = walked[-1] - apex
+    if abs(float(beyond @ np.array([-ahead[1], ahead[0]]))) > _ASTRAY * width_px:
+        return False
+    if not _is_tip(apex, ahead, mitre, ink, width_px):
         return False
     graph.note("spur", walked[-1], lines[strand].length, "the tip of an acute corner")
     graph.drop_strand(strand)
