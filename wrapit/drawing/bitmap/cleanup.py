@@ -20,7 +20,7 @@ _PINHOLE_AREA = 0.12
 # hardly beyond the edge of the other stroke; set on prototypes.
 _SPUR = 1.4
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
-# pixel or two more or less; those of a drawn fork are longer by half a width, or have paper between their tips.
+# pixel or two more or less; those of a drawn fork are longer, or have paper between their tips.
 _CORNER = 1.9
 _BEFORE_TIPS = 0.75
 # What is a loop around nothing, and a speck of dirt? In stroke widths; the first was set on prototypes, the
@@ -84,9 +84,7 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
         graph.drop_lonely()
 
 
-def join_flat_ends(
-    graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, width_px: float
-) -> None:
+def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, width_px: float) -> None:
     """One end in place of the fork into both corners of a broad stroke's flat end."""
     for node in [node for node in graph.nodes if graph.degree(node) == 3]:
         reach = _CORNER * max(radius(graph.nodes[node]), width_px / 2)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm
-from wrapit.drawing.bitmap.caps import find_cap
+from wrapit.drawing.bitmap.ends.caps import find_cap
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit

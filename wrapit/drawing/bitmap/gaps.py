@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.arms import arm
-from wrapit.drawing.bitmap.caps import find_cap
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.endings import place_end
+from wrapit.drawing.bitmap.ends.caps import find_cap
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph, polyline_length
 from wrapit.geometry import FloatArray

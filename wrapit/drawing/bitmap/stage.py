@@ -20,6 +20,7 @@ from wrapit.drawing.bitmap.cleanup import (
 )
 from wrapit.drawing.bitmap.corners import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
+from wrapit.drawing.bitmap.ends.rings import ring_joints
 from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.steady import steadied
 from wrapit.drawing.bitmap.ink import Ink
@@ -29,7 +30,6 @@ from wrapit.drawing.bitmap.overlaps.tips import open_tips
 from wrapit.drawing.bitmap.pairing import kinked, pair
 from wrapit.drawing.bitmap.picture import Picture, read_on_ruled_paper, read_picture
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_loose_strokes, refuse_other_pictures
-from wrapit.drawing.bitmap.rings import ring_joints
 from wrapit.drawing.bitmap.skeleton import strand_graph_of, thin_within
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.drawing.changes import Change, Notice

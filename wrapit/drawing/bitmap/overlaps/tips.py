@@ -31,15 +31,15 @@ _STEM = 13.0
 # halfway it is half as broad as the stroke, where a stroke that goes on is as broad as ever.
 _REACHES = 0.8
 _TAPERED = 0.8
-# How far beside the middle of both sides may the stem end? At the tips of 10 to 60 degrees tried it is below 0.3;
-# one that ends farther off is a stroke that leaves to another side.
+# How far beside the middle of both sides may the stem end? None of the tips of 10 to 60
+# degrees tried is lost by 0.4; one that ends farther off is a stroke that leaves to another side.
 _ASTRAY = 0.4
 # Up to where do the outer edges tell two centres? Until these are as near as 0.15; then the round tip begins
 # to bend the edges. The sides are quadratics over 3 of length, as arms are.
 _TOLD = 0.15
 _SIDE = 3.0
-# When do both strokes of a tip tell its width? When theirs are one within 0.08, and within 0.2 of the picture's,
-# which is read from whole pixels: 7.7 for two strokes of 9 px. Of broad and thin strokes together none is a tip's.
+# When do both strokes of a tip tell its width? When theirs are one within 0.08, and within 0.2 of the
+# picture's, which is read from whole pixels: 7.7 for two strokes of 9 px, and tips 0.6 widths off.
 _SAME = 0.08
 _LIKE = 0.2
 # Beyond how much of its merged ink may a tip lie? The mitre of 10 degrees is 5.7 long, and as much again for

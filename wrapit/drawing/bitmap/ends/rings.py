@@ -28,6 +28,8 @@ _WAVES = 3
 _ROUND = 0.02
 _ROUND_PX = 0.25
 _RAYS = 96
+# Is the stem as broad as the ring? Unless they differ by more than a quarter.
+_LIKE = 0.25
 
 Ends = dict[tuple[int, int], Ending]
 
@@ -35,7 +37,7 @@ Ends = dict[tuple[int, int], Ending]
 def ring_joints(
     graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float
 ) -> dict[int, tuple[FloatArray, Ends]]:
-    """Where each small ring hangs at its stem, by node, with how stem and ring leave; their lines are renewed."""
+    """Where each small ring hangs at its stem, by node, and how both leave; the ring's line is renewed."""
     found = {}
     for node in graph.nodes:
         ends = graph.ends_at(node)
@@ -44,7 +46,7 @@ def ring_joints(
             continue
         (loop,) = loops
         ((stem, end),) = [(s, e) for s, e in ends if s != loop]
-        ring = _ring(lines[loop], ink, width_px)
+        ring = _ring(lines[loop], _broad(lines[stem], width_px), ink, width_px)
         if ring is None:
             continue
         towards = arm(lines[stem], stem, end, width_px)
@@ -70,7 +72,11 @@ def ring_joints(
     return found
 
 
-def _ring(line: Line, ink: Ink, width_px: float) -> FloatArray | None:
+def _broad(line: Line, width_px: float) -> float:
+    return float(np.median(line.width[line.clean])) if line.clean.any() else width_px
+
+
+def _ring(line: Line, stem_px: float, ink: Ink, width_px: float) -> FloatArray | None:
     """The ring (n, 2) around a small round hole inside a closed line, or nothing where there is no such."""
     if line.length > 2 * np.pi * (_HOLE + 0.5 + _SKELETON / np.pi) * width_px:
         return None
@@ -89,7 +95,7 @@ def _ring(line: Line, ink: Ink, width_px: float) -> FloatArray | None:
     levels = sample(ink.grey, np.broadcast_to(centre, rays.shape), rays, steps) - ink.half
     hole = _crossed(levels, levels <= 0, steps)
     outside = _crossed(levels, (levels > 0) & (steps > hole[:, None]), steps)
-    broad = float(np.nanquantile(outside - hole, 0.25))
+    broad = float(np.nanmedian(outside - hole))
     waves = np.column_stack(
         [np.ones(_RAYS), *(f(k * angles) for k in range(1, _WAVES + 1) for f in (np.cos, np.sin))]
     )
@@ -98,6 +104,9 @@ def _ring(line: Line, ink: Ink, width_px: float) -> FloatArray | None:
         return None
     edge = centre + smooth[:, None] * rays
     ahead = unit(np.roll(edge, -1, axis=0) - np.roll(edge, 1, axis=0))
+    # The edge of a hole of few pixels is less well known than the ring's outer edge and the stem's width.
+    if abs(stem_px - broad) < _LIKE * broad:
+        broad = 2 * broad - stem_px
     return edge + broad / 2 * np.column_stack([ahead[:, 1], -ahead[:, 0]])
 
 
@@ -107,8 +116,9 @@ def _paper_inside(line: Line, ink: Ink) -> FloatArray | None:
 
     low = np.floor(line.points.min(axis=0)).astype(int)
     high = np.ceil(line.points.max(axis=0)).astype(int) + 1
-    inside = polygon2mask((high - low)[::-1], (line.points - low)[:, ::-1])
-    row, column = np.nonzero(inside & ~ink.mask[low[1] : high[1], low[0] : high[0]])
+    row, column = np.nonzero(polygon2mask((high - low)[::-1], (line.points - low)[:, ::-1]))  # type: ignore[no-untyped-call]
+    paper = ~ink.mask[row + low[1], column + low[0]]
+    row, column = row[paper], column[paper]
     return np.array([column.mean(), row.mean()]) + low if len(row) else None
 
 
