@@ -18,8 +18,8 @@ _FARTHEST = 3.0
 # earlier there, while the grey of a flat cap's corners is still farther out; at 0.42 hard edges misled.
 _ASIDE = 0.36
 _LINES = 9
-# How much of a circle's bulge does a flat end have, at most? Half, as the ends rendered with
-# round and flat caps at 4 to 30 px all read as what they are.
+# How much of a circle's bulge does a flat end have, at most? Half; of ends rendered at 4 to
+# 30 px all round ones read as round, flat ones as flat but for a few of 4 px, and of hard ones up to 9 px.
 _FLAT = 0.5
 
 
