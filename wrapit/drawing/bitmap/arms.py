@@ -95,7 +95,9 @@ def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
     """The arm of a strand at one end: from its first three clean points on, or its middle if it has none."""
     points = line.points if end == 0 else line.points[::-1]
     clean = line.clean if end == 0 else line.clean[::-1]
+    width = line.width if end == 0 else line.width[::-1]
     along = line.along if end == 0 else line.along[-1] - line.along[::-1]
+    stop = len(points)
     run = clean[:-2] & clean[1:-1] & clean[2:]
     first = int(np.argmax(run)) if run.any() else -1
     if first >= 0:
@@ -104,6 +106,10 @@ def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
         stop = first + 1 + (len(after) if after.all() else int(np.argmin(after)))
         if stop - first < 4 and first + 4 <= len(points):
             stop = first + 4
+    # The apex of a gentle corner, which has no width, ends an arm: its quadratic can't follow that.
+    apexes = np.flatnonzero(np.isnan(width[first:stop]) & clean[first:stop])
+    if first >= 0 and len(apexes) and apexes[0] >= 3:
+        stop = first + int(apexes[0]) + 1
     if first < 0 or stop - first < 4:
         first, stop = len(points) // 3, max(len(points) - len(points) // 3, len(points) // 3 + 2)
     return Arm(strand, end, first, points[first:stop], width_px)

@@ -19,6 +19,10 @@ _PINHOLE_AREA = 0.12
 # What is a spur? A side branch shorter than this many half widths of the ink at its junction, which end
 # hardly beyond the edge of the other stroke; set on prototypes.
 _SPUR = 1.4
+# What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
+# pixel or two more or less; those of a drawn fork are longer, or have paper between their tips.
+_CORNER = 1.9
+_BEFORE_TIPS = 0.75
 # What is a loop around nothing, and a speck of dirt? In stroke widths; the first was set on prototypes, the
 # second is a dot, no line.
 _SMALLEST_LOOP = 2.2
@@ -77,6 +81,30 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
                 graph.rejoin(node)
         if not touched:
             return
+        graph.drop_lonely()
+
+
+def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, width_px: float) -> None:
+    """One end in place of the fork into both corners of a broad stroke's flat end."""
+    for node in [node for node in graph.nodes if graph.degree(node) == 3]:
+        reach = _CORNER * max(radius(graph.nodes[node]), width_px / 2)
+        twigs = [
+            (strand, tip)
+            for strand, end in graph.ends_at(node)
+            if graph.degree(tip := graph.other_node(strand, end)) == 1 and graph.length(strand) < reach
+        ]
+        if len(twigs) != 2:
+            continue
+        # The tips themselves may be the ink's outermost pixels.
+        at = graph.nodes[node]
+        one, other = (at + _BEFORE_TIPS * (graph.nodes[tip] - at) for _, tip in twigs)
+        between = one + np.linspace(0, 1, max(2, int(2 * reach)))[:, None] * (other - one)
+        column, row = np.rint(between).astype(int).T
+        if not mask[row, column].all():
+            continue
+        for strand, tip in twigs:
+            graph.note("spur", graph.nodes[tip], graph.length(strand), "a corner of a flat end")
+            graph.drop_strand(strand)
         graph.drop_lonely()
 
 

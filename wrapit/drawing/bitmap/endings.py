@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm
-from wrapit.drawing.bitmap.centre_lines import sample
+from wrapit.drawing.bitmap.ends.caps import find_cap
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
@@ -126,24 +126,18 @@ def _lead(curve: Through, foot: float, cut: float, offset: FloatArray, to: Arm) 
 
 
 def place_end(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
-    """The end point of a stroke with a round cap, and its outward (into the stroke) tangent.
+    """The end point of a stroke, and its outward (into the stroke) tangent.
 
-    Marches from the last clean point along the stroke's own curve to the edge of the ink and steps back
-    by half the width.
+    A round cap ends half the stroke's own width behind the edge of its ink, a flat one at the edge: the
+    side of the picture cuts strokes flat, too.
     """
-    width = arm.width_px
-    steps = np.arange(0.0, 3 * width, 0.5)
     a, b, _ = arm.model
     # The curve goes on as its tangent, a quadratic would curl.
-    start, slope = a, b / max(float(np.linalg.norm(b)), 1e-9)
-    levels = sample(ink.grey, start[None], -slope[None], steps)[0] - ink.half
-    light = np.flatnonzero(levels > 0)
-    if not len(light) or light[0] == 0:
+    start, slope = a, unit(b)
+    cap = find_cap(start, -slope, arm.width_px, ink)
+    if cap is None:
         return start, Ending(slope, np.zeros((0, 2)), arm.cut)
-    at = int(light[0])
-    before, after = float(levels[at - 1]), float(levels[at])
-    edge = steps[at - 1] + 0.5 * (-before / (after - before))
-    back = edge - width / 2
+    back = cap.edge_px - (0.0 if cap.flat else cap.width_px / 2)
     if back >= 0:
         return start - back * slope, Ending(slope, np.zeros((0, 2)), arm.cut)
     inside = min(-back, arm.length / 2)

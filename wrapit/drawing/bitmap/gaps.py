@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.arms import arm
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.endings import place_end
+from wrapit.drawing.bitmap.ends.caps import find_cap
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph, polyline_length
 from wrapit.geometry import FloatArray
@@ -24,6 +26,11 @@ _SIDE_GAP = 0.5
 # widely; the pictures measured hold no case within 30 % of these.
 _END_RAD = math.radians(60)
 _SIDE_RAD = math.radians(50)
+# Where does a flat end bend the skeleton? Thinning turns to a corner half a width before the edge, so 0.6 of
+# it is left out; the cap is looked at from a whole width away, on lines that are long enough for both.
+_TURNS = 0.6
+_TAIL = 1.0
+_TAILED = 2.5
 
 
 def rejoin(graph: StrandGraph, lines: dict[int, Line], node: int) -> None:
@@ -50,6 +57,24 @@ def cut(graph: StrandGraph, lines: dict[int, Line], strand: int, index: int) -> 
             points, line.width[part], line.clean[part], lengths(points)
         )
     return node
+
+
+def cut_tails(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
+    """Lines stop before a flat end, where thinning turns to one of its corners."""
+    for node in [node for node in graph.nodes if graph.degree(node) == 1]:
+        strand, end = graph.ends_at(node)[0]
+        line = lines[strand]
+        from_tip = line.along if end == 0 else line.length - line.along
+        before = _part(line, from_tip >= _TAIL * width_px)
+        if line.length < _TAILED * width_px:
+            continue
+        last = arm(before, strand, end, width_px)
+        start, slope = last.at(0.0)
+        cap = find_cap(start, -slope, width_px, ink)
+        if cap is not None and cap.flat:
+            ahead = (line.points - start) @ -slope
+            kept = (from_tip >= _TAIL * width_px) | (ahead <= cap.edge_px - _TURNS * width_px)
+            lines[strand] = _part(line, kept)
 
 
 def close_gaps(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> None:
@@ -174,6 +199,11 @@ def drop_short(graph: StrandGraph, lines: dict[int, Line], shortest_px: float, s
         for node in left:
             if graph.degree(node) == 2:
                 rejoin(graph, lines, node)
+
+
+def _part(line: Line, kept: NDArray[np.bool_]) -> Line:
+    points = line.points[kept]
+    return Line(points, line.width[kept], line.clean[kept], lengths(points))
 
 
 def _walked(line: Line, turned: bool) -> Line:

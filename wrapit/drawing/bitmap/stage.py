@@ -14,12 +14,14 @@ from wrapit.drawing.bitmap.cleanup import (
     Radii,
     contract_short,
     drop_crumbs,
+    join_flat_ends,
     tidy,
     without_pinholes,
 )
 from wrapit.drawing.bitmap.corners.stage import split_corners
 from wrapit.drawing.bitmap.endings import Ending, place, place_end
-from wrapit.drawing.bitmap.gaps import close_gaps, drop_short
+from wrapit.drawing.bitmap.ends.rings import ring_joints
+from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.steady import steadied
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.short import forks_apart
@@ -116,6 +118,7 @@ def _traced(
     radius = Radii(skeleton.pixels, skeleton.distance)
     graph.rejoin_all()
     tidy(graph, radius, width_px)
+    join_flat_ends(graph, ink.mask, radius, width_px)
     refuse_other_pictures(ink, skeleton, graph, str(path), outlined=tracing.filled == "outline")
     contract_short(graph, radius, 0.35)
     tidy(graph, radius, width_px)
@@ -127,6 +130,7 @@ def _traced(
     contract_short(graph, radius, 1.0, forks_apart(graph, lines, width_px))
     if tidy(graph, radius, width_px):
         lines = renewed(graph, lines, ink, width_px)
+    cut_tails(graph, lines, ink, width_px)
     close_gaps(graph, lines, ink, width_px)
     split_corners(graph, lines, ink, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
@@ -220,7 +224,12 @@ def _fitted(
     graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float, tolerance: float
 ) -> list[Piece]:
     endings: dict[tuple[int, int], Ending] = {}
+    rings = ring_joints(graph, lines, ink, width_px)
     for node in graph.nodes:
+        if node in rings:
+            graph.nodes[node], ends = rings[node]
+            endings |= ends
+            continue
         arms = arms_at(graph, lines, node, width_px)
         if len(arms) == 1:
             graph.nodes[node], ending = place_end(arms[0], ink)

@@ -1,0 +1,1 @@
+"""How strokes end: caps, and small rings at a stem."""
