@@ -86,7 +86,9 @@ def region_face(region: Region, z: float = 0.0, slack_mm: float = RUN_TOLERANCE_
 def followed_area_mm2(region: Region, slack_mm: float) -> float:
     """Exact area between the region's edges as `loop_edges` makes them."""
     outer = _followed_area(turned(region.outer, counter_clockwise=True), slack_mm)
-    return outer + sum(_followed_area(turned(hole, counter_clockwise=False), slack_mm) for hole in region.holes)
+    return outer + sum(
+        _followed_area(turned(hole, counter_clockwise=False), slack_mm) for hole in region.holes
+    )
 
 
 def turned(loop: Loop, *, counter_clockwise: bool) -> Loop:

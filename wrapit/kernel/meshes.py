@@ -112,10 +112,7 @@ class _Corners:
             explorer.Next()
         move = location.Transformation()
         return np.array(
-            [
-                self._number(names.get(node), mesh.Node(node).Transformed(move))
-                for node in used.tolist()
-            ],
+            [self._number(names.get(node), mesh.Node(node).Transformed(move)) for node in used.tolist()],
             dtype=np.int64,
         )
 

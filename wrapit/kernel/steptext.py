@@ -26,7 +26,15 @@ _FILE_NAME = re.compile(r"FILE_NAME\(.*?\);", re.DOTALL)
 # What may be one where it is spelled alike: pure geometry, which has no identity of its own (vertices, edges
 # and faces have). The kernel writes a prism's edge once more as what its surface is swept from, and its ends
 # as points beside the poles: a third of a jig's file.
-_SHAPES = ("CARTESIAN_POINT(", "DIRECTION(", "VECTOR(", "LINE(", "CIRCLE(", "AXIS2_PLACEMENT_3D(", "B_SPLINE_")
+_SHAPES = (
+    "CARTESIAN_POINT(",
+    "DIRECTION(",
+    "VECTOR(",
+    "LINE(",
+    "CIRCLE(",
+    "AXIS2_PLACEMENT_3D(",
+    "B_SPLINE_",
+)
 
 
 def carried(name: str) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from wrapit.geometry import FloatArray, IntArray
 
-# How straight are the two sides of an upright face (cosine)? They are prisms' edges, straight by construction.
+# How straight are the two sides of an upright face (cosine)? A prism's are by construction.
 _STRAIGHT = 1 - 1e-9
 
 

@@ -118,13 +118,12 @@ def terraced_volume_mm3(
 
 def _raised_mm3(terraces: Sequence[Terrace], ground_mm: float) -> float:
     return sum(
-        _area_mm2(each) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm)
-        for each in terraces
+        _area_mm2(each) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm) for each in terraces
     )
 
 
 def _area_mm2(terrace: Terrace) -> float:
-    """The area that its sides should enclose: the outline's, or that of their own curves where these may leave it."""
+    """The area that its sides should enclose: the outline's, or where they may leave it their curves' own."""
     if terrace.slack_mm <= RUN_TOLERANCE_MM:
         return region_area_mm2(terrace.region)
     return followed_area_mm2(terrace.region, terrace.slack_mm)
