@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.jig.metal import circle
 from tests.kernel.test_terraces import box
 from wrapit.errors import KernelError
+from wrapit.geometry import BezierChain, Loop
 from wrapit.kernel.meshes import Mesh, mesh_of
 from wrapit.kernel.terraces import terraced_solid
 
@@ -30,6 +32,20 @@ def test_a_missing_triangle_leaves_three_open_edges(missing: int) -> None:
 def test_a_triangle_too_many_is_noticed() -> None:
     twice = np.concatenate([TETRAHEDRON.triangles, TETRAHEDRON.triangles[:1]])
     assert Mesh(TETRAHEDRON.corners, twice).open_edges == 3
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_upright_faces_have_no_corner_between_foot_and_head(turned: bool) -> None:
+    from wrapit.kernel.edges import turned as facing
+
+    chain = circle(5, (10.0, 10.0))
+    oval = BezierChain(chain.points * np.array([1.0, 0.6]))
+    outline = facing(Loop((oval,)), counter_clockwise=turned)
+    solid = terraced_solid(outline, 0.0, 8.0, [], [], "plate")
+    mesh = mesh_of([solid.solid], 0.002, 0.2)
+    assert set(mesh.corners[:, 2].round(9)) == {0.0, 8.0}
+    assert len(mesh.triangles) == 2 * (len(mesh.corners) - 2)
+    assert mesh.volume_mm3 == pytest.approx(solid.volume_mm3, rel=1e-3)
 
 
 def test_mesh_notices_a_missing_face() -> None:

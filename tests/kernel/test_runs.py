@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from wrapit.geometry import BezierChain, FloatArray, Line, Loop
+from wrapit.geometry import BezierChain, FloatArray, Line, Loop, Region
 from wrapit.kernel.measures import is_valid
 from wrapit.kernel.runs import MOST_TURNING_RAD, RUN_TOLERANCE_MM, between_corners, smooth_runs
-from wrapit.kernel.terraces import terraced_solid
+from wrapit.kernel.terraces import Terrace, terraced_solid
 
 
 def waves(seed: int, count: int, step_mm: float) -> FloatArray:
@@ -45,6 +45,7 @@ def test_runs_follow_their_cubics(seed: int, count: int, step_mm: float) -> None
         assert abs(a[0] * b[1] - a[1] * b[0]) < 1e-9 * math.hypot(*a) * math.hypot(*b) + 1e-15
     for run in runs:
         assert len(run.breaks) == 2
+        assert np.linalg.norm(np.diff(run.poles, axis=0), axis=1).sum() <= 1.5 * run.domain[1]
         points = run.at(np.linspace(*run.domain, 200))
         sagitta = 1e-5 * step_mm
         assert shapely.distance(shapely.points(points), line).max() < 1.5 * RUN_TOLERANCE_MM + sagitta
@@ -60,6 +61,25 @@ def test_the_kernels_own_volume_is_that_of_the_outline(seed: int) -> None:
     made = terraced_solid(Loop((chain, *sides)), 0.0, 3.0, [], [], "plate")  # which proves the volume
     assert is_valid(made.solid)
     assert made.plain == ()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_terraces_with_slack_keep_within_it_in_fewer_faces(seed: int) -> None:
+    chain = BezierChain(waves(seed, 40, 1.0))
+    (x0, y0), (x1, y1) = chain.start.tolist(), chain.end.tolist()
+    sides = (Line((x1, y1), (x1, 1.0)), Line((x1, 1.0), (x0, 1.0)), Line((x0, 1.0), (x0, y0)))
+    corners = [(x0 - 2, 0.0), (x1 + 2, 0.0), (x1 + 2, 30.0), (x0 - 2, 30.0)]
+    rim = Loop(tuple(Line(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)))
+    region = Region(Loop((chain, *sides)))
+    made = [
+        terraced_solid(rim, 0.0, 3.0, [Terrace(region, 5.0, slack_mm=slack)], [], "plate")
+        for slack in (RUN_TOLERANCE_MM, 0.009)
+    ]
+    assert len(smooth_runs(chain.points, 0.009)) < len(smooth_runs(chain.points))
+    assert abs(made[0].volume_mm3 - made[1].volume_mm3) < 0.009 * chain.length * 2
+    line = shapely.LineString(chain.sampled(1e-3))
+    for run in smooth_runs(chain.points, 0.009):
+        assert shapely.distance(shapely.points(run.at(np.linspace(*run.domain, 300))), line).max() < 0.0095
 
 
 def test_corners_stay_and_no_run_turns_further_than_it_may() -> None:

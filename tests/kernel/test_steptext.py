@@ -24,6 +24,14 @@ def test_canonical_step_forgets_the_order() -> None:
     assert "2026" not in canonical_step(first, "a")
 
 
+def test_shapes_are_spelled_once_and_vertices_stay_apart() -> None:
+    points = "".join(f"#{n}=CARTESIAN_POINT('',(1.,2.,3.));\n" for n in (1, 2, 3))
+    vertices = "#4=VERTEX_POINT('',#1);\n#5=VERTEX_POINT('',#2);\n#6=SHELL((#4,#5,#3));\n"
+    text = canonical_step(HEAD + points + vertices + TAIL, "a")
+    assert text.count("CARTESIAN_POINT") == 1
+    assert text.count("VERTEX_POINT('',#1)") == 2
+
+
 @given(st.data(), st.integers(1, 12), st.randoms())
 def test_any_order_and_any_numbers_give_the_same_text(
     data: st.DataObject, count: int, chance: random.Random

@@ -12,7 +12,8 @@ from wrapit.config.plate import CurveStyle, ProfileName
 from wrapit.errors import ExportError
 from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
-from wrapit.geometry import Arc, BezierChain, Edge
+from wrapit.exports.short_spans import without_short_lines, without_short_spans
+from wrapit.geometry import Arc, BezierChain, Edge, Line
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
 from wrapit.geometry.outlines.loops import is_circle
 from wrapit.jig.contours import Contour
@@ -95,8 +96,10 @@ def _add(space: Modelspace, contour: Contour, look: Look, *, exploded: bool) -> 
     elif exploded:
         _add_exploded(space, edges, attributes, closed=closed)
     else:
+        lines = [edge for edge in edges if isinstance(edge, Line)]
+        kept = without_short_lines(lines, closed=closed) if len(lines) == len(edges) else edges
         space.add_lwpolyline(
-            as_bulges(edges, closed=closed), format="xyb", close=closed, dxfattribs=attributes
+            as_bulges(kept, closed=closed), format="xyb", close=closed, dxfattribs=attributes
         )
 
 
@@ -119,7 +122,7 @@ def _add_exploded(
 def _add_spline(
     space: Modelspace, edges: Sequence[Edge], attributes: dict[str, Any], *, closed: bool
 ) -> None:
-    chain = as_chain(edges, closed=closed)
+    chain = without_short_spans(as_chain(edges, closed=closed), closed=closed)
     poles = [chain.start, *(point for cubic in chain.points for point in cubic[1:])]
     spline = space.add_spline(dxfattribs={**attributes, "degree": 3})
     spline.control_points = [(float(x), float(y), 0.0) for x, y in poles]

@@ -12,7 +12,7 @@ from wrapit.errors import KernelError
 from wrapit.geometry import Arc, BezierChain, BSpline, Edge, FloatArray, Line, Loop, Region
 from wrapit.geometry.outlines.loops import point_of
 from wrapit.geometry.outlines.polygons import loop_area_mm2
-from wrapit.kernel.runs import between_corners, smooth_runs
+from wrapit.kernel.runs import RUN_TOLERANCE_MM, between_corners, smooth_runs, swept_area_mm2
 
 
 def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
@@ -34,12 +34,15 @@ def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
     return Geom_BSplineCurve(poles, knots, multiplicities, spline.degree)
 
 
-def loop_edges(loop: Loop, z: float = 0.0) -> list[Any]:
-    """The loop's edges at height z, sharing their vertices, in its order; curves as few smooth runs."""
+def loop_edges(loop: Loop, z: float = 0.0, slack_mm: float = RUN_TOLERANCE_MM) -> list[Any]:
+    """The loop's edges at height z, sharing their vertices, in its order; curves as few smooth runs.
+
+    The runs are within the slack of the curves.
+    """
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
     from OCP.gp import gp_Pnt
 
-    edges = [part for edge in loop.edges for part in _parts(edge)]
+    edges = [part for edge in loop.edges for part in _parts(edge, slack_mm)]
     starts = [_start(edge) for edge in edges]
     vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, z)).Vertex() for x, y in starts]
     return [
@@ -73,11 +76,19 @@ def plane_face(outer: Any, holes: Sequence[Any], z: float) -> Any:
     return maker.Face()
 
 
-def region_face(region: Region, z: float = 0.0) -> Any:
-    """The region as a flat face at height z, facing up."""
-    outer = wire_of(loop_edges(turned(region.outer, counter_clockwise=True), z))
-    holes = [wire_of(loop_edges(turned(hole, counter_clockwise=False), z)) for hole in region.holes]
+def region_face(region: Region, z: float = 0.0, slack_mm: float = RUN_TOLERANCE_MM) -> Any:
+    """The region as a flat face at height z, facing up; its edges within the slack of the region's."""
+    outer = wire_of(loop_edges(turned(region.outer, counter_clockwise=True), z, slack_mm))
+    holes = [wire_of(loop_edges(turned(hole, counter_clockwise=False), z, slack_mm)) for hole in region.holes]
     return plane_face(outer, holes, z)
+
+
+def followed_area_mm2(region: Region, slack_mm: float) -> float:
+    """Exact area between the region's edges as `loop_edges` makes them."""
+    outer = _followed_area(turned(region.outer, counter_clockwise=True), slack_mm)
+    return outer + sum(
+        _followed_area(turned(hole, counter_clockwise=False), slack_mm) for hole in region.holes
+    )
 
 
 def turned(loop: Loop, *, counter_clockwise: bool) -> Loop:
@@ -92,11 +103,18 @@ def edge_start(edge: Edge) -> tuple[float, float]:
     return (float(edge.start[0]), float(edge.start[1]))
 
 
-def _parts(edge: Edge) -> list[Line | Arc | BSpline]:
+def _parts(edge: Edge, slack_mm: float) -> list[Line | Arc | BSpline]:
     """What becomes of an edge of an outline: curves as smooth runs, divided at corners."""
     if not isinstance(edge, BezierChain):
         return [edge]
-    return [run for smooth in between_corners(edge.points) for run in smooth_runs(smooth)]
+    return [run for smooth in between_corners(edge.points) for run in smooth_runs(smooth, slack_mm)]
+
+
+def _followed_area(loop: Loop, slack_mm: float) -> float:
+    """Signed area inside the loop's runs, positive counter-clockwise."""
+    parts = [part for edge in loop.edges for part in _parts(edge, slack_mm)]
+    straight = Loop(tuple(part for part in parts if not isinstance(part, BSpline)))
+    return loop_area_mm2(straight) + sum(swept_area_mm2(part) for part in parts if isinstance(part, BSpline))
 
 
 def _backwards(edge: Edge) -> Edge:

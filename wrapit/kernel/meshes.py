@@ -11,6 +11,7 @@ import numpy as np
 
 from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, IntArray
+from wrapit.kernel.strips import strip_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,8 +95,8 @@ class _Corners:
         TopExp.MapShapes_s(solid, TopAbs_EDGE, self._edges)
         TopExp.MapShapes_s(solid, TopAbs_VERTEX, self._vertices)
 
-    def of_face(self, face: Any, mesh: Any, location: Any) -> IntArray:
-        """The numbers of the face's nodes, in their order."""
+    def of_face(self, face: Any, mesh: Any, location: Any, used: IntArray) -> IntArray:
+        """The numbers of those of the face's nodes that are used, in their order."""
         from OCP.BRep import BRep_Tool
         from OCP.TopAbs import TopAbs_EDGE
         from OCP.TopExp import TopExp_Explorer
@@ -111,10 +112,7 @@ class _Corners:
             explorer.Next()
         move = location.Transformation()
         return np.array(
-            [
-                self._number(names.get(node), mesh.Node(node).Transformed(move))
-                for node in range(1, mesh.NbNodes() + 1)
-            ],
+            [self._number(names.get(node), mesh.Node(node).Transformed(move)) for node in used.tolist()],
             dtype=np.int64,
         )
 
@@ -161,8 +159,10 @@ def _face_triangles(face: Any, corners: _Corners) -> IntArray:
     mesh = BRep_Tool.Triangulation_s(face, location)
     if mesh is None:
         raise KernelError("a face can't be divided into triangles")
-    numbers = corners.of_face(face, mesh, location)
-    order = (1, 3, 2) if face.Orientation() == TopAbs_REVERSED else (1, 2, 3)
-    facets = [mesh.Triangle(i) for i in range(1, mesh.NbTriangles() + 1)]
-    found = np.array([[facet.Value(k) - 1 for k in order] for facet in facets], dtype=np.int64)
-    return numbers[found.reshape(-1, 3)]
+    facets = strip_of(face, mesh, location)
+    if facets is None:
+        triangles = (mesh.Triangle(i) for i in range(1, mesh.NbTriangles() + 1))
+        facets = np.array([[facet.Value(k) for k in (1, 2, 3)] for facet in triangles], dtype=np.int64)
+    used, facets = np.unique(facets, return_inverse=True)
+    found = corners.of_face(face, mesh, location, used)[facets.reshape(-1, 3)]
+    return found[:, ::-1] if face.Orientation() == TopAbs_REVERSED else found

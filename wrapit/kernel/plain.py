@@ -8,6 +8,7 @@ from wrapit.geometry.outlines.polygons import polygon_of, region_of
 from wrapit.kernel.edges import region_face
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.measures import is_valid
+from wrapit.kernel.runs import RUN_TOLERANCE_MM
 
 # How near such a polygon is to its outline: far nearer than a wall's check asks (1e-3 mm), and with lines
 # that are no shorter than what outlines are made of otherwise.
@@ -22,9 +23,9 @@ class Plain:
     def __init__(self) -> None:
         self.places: list[str] = []
 
-    def region(self, region: Region) -> Region:
+    def region(self, region: Region, slack_mm: float = RUN_TOLERANCE_MM) -> Region:
         """The region itself where its face is sound, else its polygon; KernelError if it has none."""
-        if _sound(region):
+        if _sound(region, slack_mm):
             return region
         import shapely
 
@@ -39,9 +40,9 @@ class Plain:
         return region_of(shapely.remove_repeated_points(largest, SHORTEST_MM))
 
 
-def _sound(region: Region) -> bool:
+def _sound(region: Region, slack_mm: float) -> bool:
     try:
         with guarded("an outline's face", "one outline"):
-            return is_valid(region_face(region))
+            return is_valid(region_face(region, 0.0, slack_mm))
     except KernelError:
         return False

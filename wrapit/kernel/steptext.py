@@ -1,7 +1,8 @@
 """STEP text in one canonical form: entity order and numbers don't depend on memory addresses.
 
-Each entity gets a digest of its text with references replaced by the digests of what they name; entities
-are then numbered in the order in which they are reached from the roots, roots sorted by digest.
+Each entity gets a digest of its text with references replaced by the digests of what they name; points,
+curves and surfaces of equal digests become one; entities are then numbered in the order in which they are
+reached from the roots, roots sorted by digest.
 """
 
 from __future__ import annotations
@@ -21,6 +22,19 @@ _USAGE = re.compile(r"^(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
 _OUTSIDE_ASCII = re.compile(r"[^\x00-\x7f]+")
 _CARRIED = re.compile(r"~X([24])~([0-9A-F]+)~X0~")
 _FILE_NAME = re.compile(r"FILE_NAME\(.*?\);", re.DOTALL)
+
+# What may be one where it is spelled alike: pure geometry, which has no identity of its own (vertices, edges
+# and faces have). The kernel writes a prism's edge once more as what its surface is swept from, and its ends
+# as points beside the poles: a third of a jig's file.
+_SHAPES = (
+    "CARTESIAN_POINT(",
+    "DIRECTION(",
+    "VECTOR(",
+    "LINE(",
+    "CIRCLE(",
+    "AXIS2_PLACEMENT_3D(",
+    "B_SPLINE_",
+)
 
 
 def carried(name: str) -> str:
@@ -54,8 +68,10 @@ def canonical_step(text: str, file_name: str) -> str:
     digests = _digests(entities, uses)
     used = {reference for references in uses.values() for reference in references}
     roots = sorted((n for n in entities if n not in used), key=lambda n: (digests[n], n))
-    order = _reached(roots, uses)
-    numbers = {old: new for new, old in enumerate(order, start=1)}
+    one = _one_of_each(entities, digests)
+    order = _reached(roots, {n: [one[reference] for reference in uses[n]] for n in entities})
+    new = {old: index for index, old in enumerate(order, start=1)}
+    numbers = {old: new[one[old]] for old in entities if one[old] in new}
     usages = 0
     lines = []
     for old in order:
@@ -63,7 +79,7 @@ def canonical_step(text: str, file_name: str) -> str:
         if body.startswith("NEXT_ASSEMBLY_USAGE_OCCURRENCE(''"):
             usages += 1
             body = body.replace("(''", f"('{usages}'", 1)
-        lines.append(f"#{numbers[old]}={body};")
+        lines.append(f"#{new[old]}={body};")
     return header + "DATA;\n" + _with_codes("\n".join(lines)) + "\nENDSEC;\nEND-ISO-10303-21;\n"
 
 
@@ -108,6 +124,15 @@ def _digests(entities: dict[int, str], uses: dict[int, list[int]]) -> dict[int, 
             digests[number] = hashlib.sha1("|".join([body, *names]).encode("latin-1")).hexdigest()
             stack.pop()
     return digests
+
+
+def _one_of_each(entities: dict[int, str], digests: dict[int, str]) -> dict[int, int]:
+    """Which entity stands for each: shapes that are spelled alike are one, all else stays itself."""
+    first: dict[str, int] = {}
+    return {
+        number: first.setdefault(digests[number], number) if body.startswith(_SHAPES) else number
+        for number, body in entities.items()
+    }
 
 
 def _quoted_hash(match: re.Match[str]) -> str:

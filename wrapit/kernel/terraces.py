@@ -13,10 +13,11 @@ from typing import Any
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
-from wrapit.kernel.edges import loop_edges, plane_face, turned, wire_of
+from wrapit.kernel.edges import followed_area_mm2, loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import REMEDY, guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
 from wrapit.kernel.plain import Plain
+from wrapit.kernel.runs import RUN_TOLERANCE_MM
 
 # How finely are outlines sampled to tell what lies inside of what? They don't touch, so that roughly is
 # enough: from 0.001 to 0.1 the jigs of butterfly, leaf and bee come out the same.
@@ -30,12 +31,14 @@ VOLUME_TOLERANCE = 1e-6
 class Terrace:
     """A region whose surface lies at `z_mm` instead of the ground's: higher is a wall, lower a pocket.
 
-    `upon` are terraces that stand on it, inside its outline without touching it.
+    `upon` are terraces that stand on it, inside its outline without touching it. The sides are within
+    `slack_mm` of the region's: more where nothing rests on them, for fewer faces.
     """
 
     region: Region
     z_mm: float
     upon: tuple[Terrace, ...] = ()
+    slack_mm: float = RUN_TOLERANCE_MM
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +80,7 @@ def terraced_solid(
 
 def _made_plain(terrace: Terrace, plain: Plain) -> Terrace:
     upon = tuple(_made_plain(each, plain) for each in terrace.upon)
-    return Terrace(plain.region(terrace.region), terrace.z_mm, upon)
+    return Terrace(plain.region(terrace.region, terrace.slack_mm), terrace.z_mm, upon, terrace.slack_mm)
 
 
 def _proven(
@@ -115,9 +118,15 @@ def terraced_volume_mm3(
 
 def _raised_mm3(terraces: Sequence[Terrace], ground_mm: float) -> float:
     return sum(
-        region_area_mm2(each.region) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm)
-        for each in terraces
+        _area_mm2(each) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm) for each in terraces
     )
+
+
+def _area_mm2(terrace: Terrace) -> float:
+    """The area that its sides should enclose: the outline's, or where they may leave it their curves' own."""
+    if terrace.slack_mm <= RUN_TOLERANCE_MM:
+        return region_area_mm2(terrace.region)
+    return followed_area_mm2(terrace.region, terrace.slack_mm)
 
 
 def _solid(
@@ -146,14 +155,14 @@ def _tier(
     islands = [shore]
     for terrace in terraces:
         outer = turned(terrace.region.outer, counter_clockwise=True)
-        foot = wire_of(loop_edges(outer, z))
+        foot = wire_of(loop_edges(outer, z, terrace.slack_mm))
         sides, head = _upright(foot, terrace.z_mm - z)
         faces += sides
         voids.append((outer, foot.Reversed()))
         wells = []
         for hole in terrace.region.holes:
             inner = turned(hole, counter_clockwise=False)
-            inner_foot = wire_of(loop_edges(inner, z))
+            inner_foot = wire_of(loop_edges(inner, z, terrace.slack_mm))
             sides, inner_head = _upright(inner_foot, terrace.z_mm - z)
             faces += sides
             wells.append((inner, inner_head))

@@ -16,8 +16,13 @@ from wrapit.jig.model import JigPlan, Seat
 if TYPE_CHECKING:
     from wrapit.kernel.terraces import Terrace, Terraced
 
-# How near the set-back top of a wall is to its true parallel: no wire touches it, so as near as one sees.
+# How near the set-back top of a wall is to its true parallel: no wire touches it, so as near as one sees. Its
+# cubics take the first, its faces the rest: all butterfly's crowns have 96 side faces so, 195 where the
+# cubics take all.
 CROWN_TOLERANCE_MM = 0.01
+CROWN_FIT_MM = 0.001
+# Necks narrower than twice this are cut off: the sides of narrower ones might cross.
+CROWN_NECK_MM = 0.02
 # A smaller top is left out (the wall ends at the step): less than one blob of a nozzle of 0.4 mm, 0.8 long.
 LEAST_CROWN_MM2 = 0.3
 
@@ -53,10 +58,12 @@ def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float)
     crest = ground_mm + height_mm
     if lead_in_mm > 0:
         foot = polygon_of(region, 1e-3)
-        crown = foot.simplify(1e-3).buffer(-lead_in_mm, quad_segs=4)
+        crown = foot.simplify(1e-3).buffer(-lead_in_mm - CROWN_NECK_MM, quad_segs=4)
+        crown = crown.buffer(CROWN_NECK_MM, join_style="mitre")
         crowns = [part for part in shapely.get_parts(crown) if part.area > LEAST_CROWN_MM2]
         if crowns:
-            upon = tuple(Terrace(_within(part, foot), crest) for part in crowns)
+            slack = CROWN_TOLERANCE_MM - CROWN_FIT_MM
+            upon = tuple(Terrace(_within(part, foot), crest, slack_mm=slack) for part in crowns)
             return Terrace(region, crest - lead_in_mm, upon)
     return Terrace(region, crest)
 
@@ -88,7 +95,7 @@ def _fitted_loop(ring: shapely.LinearRing) -> Loop:
     half = int(np.linalg.norm(points - points[0], axis=1).argmax())
     return Loop(
         (
-            *fitted_edges(points[: half + 1], CROWN_TOLERANCE_MM),
-            *fitted_edges(points[half:], CROWN_TOLERANCE_MM),
+            *fitted_edges(points[: half + 1], CROWN_FIT_MM),
+            *fitted_edges(points[half:], CROWN_FIT_MM),
         )
     )
