@@ -72,13 +72,15 @@ class JigMaker:
 
     `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
     made, UnheldError where it would hold too little. `held` is the share of the turns and long stretches that
-    it would hold, planned only. `solid` says that its parts are kernel solids.
+    it would hold, planned only. `solid` says that its parts are kernel solids: then `plan` does what needs no
+    kernel, raises as `make` does, and returns what makes the solids, to be sent to the kernel's process.
     """
 
     kind: JigKind
     solid: bool
     make: Callable[[Wires, Config], Made]
     held: Callable[[Wires, Config], float]
+    plan: Callable[[Wires, Config], Callable[[], Made]] | None = None
 
 
 def reported(value: float) -> float:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from wrapit.config import Config, JigKind
+from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 from wrapit.jig.made import Made, Wires
 from wrapit.materials import METALS
 from wrapit.wires.model import JumpRing
 
-# What loads for seconds, while drawing and wires are made.
-PRELOAD = ("wrapit.kernel.files", "wrapit.jig.printed.stage")
+# What loads for seconds, while drawing and wires are made and jigs planned: cadquery brings OpenCascade.
+PRELOAD = ("wrapit.kernel.files", "wrapit.kernel.terraces", "wrapit.jig.printed.stage", "cadquery")
 # How far apart do jigs stand in one file? So far that each is seen as one of its own.
 _BETWEEN_MM = 10.0
 
@@ -24,15 +24,12 @@ _BETWEEN_MM = 10.0
 Frames = dict[str, list[float] | dict[str, list[float]]]
 
 
-def make_solids(kind: JigKind, wires: Wires, config: Config, folder: Path | None, suffix: str = "") -> Made:
-    """The jig of a kind with solids, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
+def make_solids(planned: Callable[[], Made], config: Config, folder: Path | None, suffix: str = "") -> Made:
+    """A planned jig, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
 
-    `wires` are as they lie in the jig. The result holds no kernel shapes; its numbers say in which frame each
-    file is.
+    The result holds no kernel shapes; its numbers say in which frame each file is.
     """
-    from wrapit.jig.kinds import JIGS
-
-    made = JIGS[kind].make(wires, config)
+    made = planned()
     numbers = made.numbers
     if folder is not None:
         numbers = {**numbers, "frames": _write(made, config, folder, suffix)}
