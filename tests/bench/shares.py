@@ -42,8 +42,9 @@ def main(words: list[str] | None = None) -> None:
     stages: dict[str, float] = json.loads(said)
     for stage, seconds in {"start and end": whole_s - sum(stages.values()), **stages}.items():
         print(f"  {stage:15s}{seconds:6.2f} s  {seconds / whole_s:4.0%}")
+    busy = whole_cpu_s / whole_s
     print(
-        f"{config.stem}: {whole_s:.1f} s, processor {whole_cpu_s:.1f} s, {whole_cpu_s / whole_s:.1f} cores busy;"
+        f"{config.stem}: {whole_s:.1f} s, processor {whole_cpu_s:.1f} s, {busy:.1f} cores busy;"
         f" {whole_s / loading_s:.1f} × loading (goal {GOAL}), processor {whole_cpu_s / loading_cpu_s:.1f} ×"
     )
 
