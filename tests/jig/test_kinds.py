@@ -167,14 +167,3 @@ def test_a_planned_jig_that_was_sent_makes_the_same() -> None:
     made, here = pickle.loads(sent)(), JIGS["printed"].make(wires, config)
     assert made.numbers == here.numbers
     assert made.findings == here.findings
-
-
-def test_a_first_kind_that_is_refused_starts_no_solid(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, processes: list[Worker]
-) -> None:
-    started: list[Any] = []
-    monkeypatch.setattr(Worker, "start", lambda _, *order: started.append(order))
-    with pytest.raises(UnheldError):
-        build(piece(tmp_path, 60, jigs=["printed"], jig={"least_support": 1}), tmp_path / "out")
-    assert len(processes) == 1
-    assert not started
