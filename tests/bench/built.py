@@ -1,62 +1,104 @@
-"""How many random drawings become a whole build: `python -m tests.bench built 20`."""
+"""How many random drawings become a whole build: `python -m tests.bench built [how many] [first seed]`.
+
+All families of `families`, as SVG and PNG, 16 to 26 AWG, 25 to 150 mm; each is built in a process of its own
+with a time limit. What is built is read again: the solid's validity in the report, the triangles' edges
+counted here, no finding that is an error but a jig left out.
+"""
 
 from __future__ import annotations
 
 import collections
+import json
+import re
+import subprocess
+import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
 
-from tests.drawing.generated import random_curve
-from wrapit.errors import UnheldError, WrapItError
+from tests.bench.families import FAMILIES, lines_of, picture_of, svg_of
 
 GAUGES = (16, 18, 20, 22, 24, 26)
 SIZES_MM = (25, 150)
+LIMIT_S = 900
+# A whole build's triangles take 50 bytes each behind a head of 84 in a binary STL.
+_STL_HEAD, _FACET = 84, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def main(words: list[str] | None = None) -> None:
-    """Builds so many random drawings (10 unless said), and says what stopped those that failed."""
-    from wrapit import build
-
-    count = int(words[0]) if words else 10
+    """Builds so many random drawings (one of each family unless said), and says what became of them."""
+    count, first = (*map(int, words or ()), *(len(FAMILIES), 0)[len(words or ()) :])
     outcomes: collections.Counter[str] = collections.Counter()
     with tempfile.TemporaryDirectory() as folder:
-        for seed in range(count):
-            config, started = drawn(Path(folder), seed), time.process_time()
-            try:
-                build(config, Path(folder) / f"out-{seed}")
-                outcome = "built"
-            except UnheldError:
-                outcome = "holds too little"
-            except WrapItError as error:
-                outcome = error.problem
+        for seed in range(first, first + count):
+            config, what = drawn(Path(folder), seed)
+            outcome = built(config, Path(folder) / f"out-{seed}")
             outcomes[outcome] += 1
-            print(f"  {seed:3}  {time.process_time() - started:5.1f} s  {outcome}", flush=True)
+            print(f"  {seed:3}  {what:35s} {outcome}", flush=True)
     for outcome, times in outcomes.most_common():
         print(f"{times:4} of {count}: {outcome}")
 
 
-def drawn(folder: Path, seed: int) -> Path:
-    """The config of one to three smooth closed curves, at a random size and gauge."""
+def built(config: Path, folder: Path) -> str:
+    """What becomes of a config: "built", what is wrong with what was built, or exit code and words."""
+    command = [sys.executable, "-m", "wrapit", "build", str(config), "-o", str(folder), "-q"]
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+    except subprocess.TimeoutExpired:
+        return f"not done in {LIMIT_S} s"
+    if run.returncode:
+        said = run.stderr.strip().splitlines()[-1:] or ["nothing"]
+        return f"exit {run.returncode}: {_kind(said[0], config)}"
+    return "; ".join(faults(folder)) or "built"
+
+
+def faults(folder: Path) -> list[str]:
+    """What is wrong with a build: solids that aren't valid, open triangles, findings that are errors."""
+    report = json.loads((folder / "report.json").read_text())
+    found = [] if report["jig"]["valid"] else ["the jig is not valid"]
+    for path in sorted(folder.glob("*.stl")):
+        count = open_edges(path)
+        found += [f"{path.name} has {count} open edges"] if count else []
+    wrong = {finding["code"] for finding in report["findings"] if finding["level"] == "error"}
+    return found + [f"error {code}" for code in sorted(wrong - {"jig-left-out"})]
+
+
+def open_edges(path: Path) -> int:
+    """Edges of a binary STL that aren't run through once each way; corners are told by their coordinates."""
+    corners = np.frombuffer(path.read_bytes()[_STL_HEAD:], _FACET)["corners"].reshape(-1, 3)
+    names = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1, 3).astype(np.int64)
+    # Two corners that are one in four bytes leave a triangle without area, whose edges cancel.
+    names = names[(names != np.roll(names, 1, axis=1)).all(axis=1)]
+    ends = np.concatenate([names[:, [0, 1]], names[:, [1, 2]], names[:, [2, 0]]])
+    balance: collections.Counter[tuple[int, int]] = collections.Counter()
+    for a, b in ends.tolist():
+        balance[min(a, b), max(a, b)] += 1 if a < b else -1
+    return sum(times != 0 for times in balance.values())
+
+
+def drawn(folder: Path, seed: int) -> tuple[Path, str]:
+    """A config of one drawing at a random size and gauge, and what it is; families take turns."""
     rng = np.random.default_rng(seed)
-    curves = [random_curve(rng, 100, int(rng.integers(2, 6))) for _ in range(int(rng.integers(1, 4)))]
-    paths = "".join(
-        f'<path d="M {" L ".join(f"{x:.3f} {y:.3f}" for x, y in curve[::4])} Z" fill="none" stroke="black"/>'
-        for curve in curves
-    )
-    size = float(np.exp(rng.uniform(*np.log(SIZES_MM))))
-    (folder / f"{seed}.svg").write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{paths}</svg>', encoding="utf-8"
-    )
-    config = folder / f"{seed}.yaml"
+    family = [*FAMILIES][seed % len(FAMILIES)]
+    lines = lines_of(family, rng)
+    drawing = folder / f"{family}-{seed}.{rng.choice(['svg', 'png'])}"
+    if drawing.suffix == ".svg":
+        drawing.write_text(svg_of(family, lines), encoding="utf-8")
+    else:
+        picture_of(family, lines).save(drawing)
+    size, gauge = float(np.exp(rng.uniform(*np.log(SIZES_MM)))), int(rng.choice(GAUGES))
+    config = drawing.with_suffix(".yaml")
     config.write_text(
-        f"drawing: {seed}.svg\nsize: {size:.1f} mm\nwire: {{gauge: {rng.choice(GAUGES)} AWG}}\n",
-        encoding="utf-8",
+        f"drawing: {drawing.name}\nsize: {size:.1f} mm\nwire: {{gauge: {gauge} AWG}}\n", encoding="utf-8"
     )
-    return config
+    return config, f"{drawing.name} {size:.0f} mm {gauge} AWG"
+
+
+def _kind(said: str, config: Path) -> str:
+    """The words of an error without numbers and the piece's name: those of a kind count together."""
+    return re.sub(r"-?\d+(\.\d+)?", "N", said.removeprefix("error: ").replace(config.stem, "PIECE"))
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

@@ -29,6 +29,22 @@ def test_nearest_is_as_near_as_any_sample(chains: list[BezierChain], wanted: np.
     assert np.allclose(np.linalg.norm(tangents, axis=1), 1.0)
 
 
+@settings(max_examples=60)
+@given(sets, some, st.sampled_from([0.7, 5.0, 200.0]))
+def test_no_piece_that_is_left_out_would_have_won(
+    chains: list[BezierChain], wanted: np.ndarray, reach_mm: float
+) -> None:
+    curves = CurveSet.of(chains)
+    near = curves.nearest(wanted, reach_mm)
+    index, piece, at, distance = curves.all_near(wanted, reach_mm)
+    for point in range(len(wanted)):
+        mine = index == point
+        assert near.distance[point] == distance[mine].min(initial=np.inf)
+        if mine.any():
+            best = np.flatnonzero(mine & (distance == near.distance[point]))
+            assert near.at[point] in (piece + at)[best]
+
+
 @settings(max_examples=30)
 @given(sets, some, motions)
 def test_distances_stay_under_rigid_motion(

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
 
+from tests.jig.metal import arcs, line, wires_of
 from wrapit.config import Config
 from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Line
@@ -154,3 +156,15 @@ def test_a_new_kind_is_one_line_in_the_dict(tmp_path: Path, monkeypatch: pytest.
     (line,) = ezdxf.readfile(tmp_path / "out" / "paper.dxf").modelspace().query("LWPOLYLINE")
     assert line.get_points("xy") == [(0, 0), (pytest.approx(lengths, abs=1e-3), 0)]
     assert "The board has 1 columns and 1 rows" in (tmp_path / "out" / "guide.html").read_text()
+
+
+def test_a_planned_jig_that_was_sent_makes_the_same() -> None:
+    wires = wires_of([arcs((0, 0), 0, (15, 0), (9, 180), (1.2, -150), (15, 0)), line((-5, 9), (25, 9))])
+    config = Config(drawing="x", jig={"split": "single", "numbers": True})
+    planned = JIGS["printed"].plan
+    assert planned is not None
+    sent = pickle.dumps(planned(wires, config))
+    assert len(sent) < 400_000
+    made, here = pickle.loads(sent)(), JIGS["printed"].make(wires, config)
+    assert made.numbers == here.numbers
+    assert made.findings == here.findings

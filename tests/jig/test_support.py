@@ -27,6 +27,7 @@ from wrapit.jig.support import (
     turn_support,
     with_pins,
 )
+from wrapit.jig.wall_ground import inside
 from wrapit.wires.model import Turn
 
 REACH_MM = AWG18_MM / 2 + 0.2
@@ -91,6 +92,19 @@ def test_measured_gap_sees_a_wall_that_is_too_near() -> None:
     walls = [Channels.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
     gap, _ = min_wall_to_wire_mm(Channels.of(wires, wide), walls)
     assert gap == pytest.approx(0.2, abs=1e-4)
+
+
+places = st.lists(st.tuples(*[st.integers(-12, 12).map(lambda k: k / 2)] * 2), min_size=1, max_size=30)
+
+
+@given(st.lists(st.tuples(st.integers(-4, 4), st.integers(1, 5)), max_size=5), places)
+def test_probes_are_inside_as_the_plain_query_says(
+    rings: list[tuple[int, int]], at: list[tuple[float, float]]
+) -> None:
+    walls = [shapely.Point(x, 0).buffer(size).difference(shapely.box(x, 0, x + 1, 1)) for x, size in rings]
+    tree, probes = shapely.STRtree(walls), shapely.points(at)
+    plain = tree.query(probes, predicate="within")
+    assert sorted(zip(*inside(tree, probes), strict=True)) == sorted(zip(*plain, strict=True))
 
 
 def turn(start_mm: float, length_mm: float, wire: str = "wire-01", inside: str = "left") -> Turn:

@@ -96,7 +96,17 @@ class CurveSet:
 
     def nearest(self, points: FloatArray, reach_mm: float) -> Nearest:
         """The nearest place within reach of each point (m, 2)."""
-        index, piece, at, distance = self.all_near(points, reach_mm)
+        index, piece = self._pairs(points, reach_mm)
+        start, apart = _nearest_starts(points[index], self.pieces[piece])
+        # No place of a piece is further from the nearest start than half the way between two: what starts
+        # further away than the point's best start by more than that can't win, and is left out.
+        bound = np.full(len(points), np.inf)
+        np.minimum.at(bound, index, apart)
+        hopeful = np.flatnonzero(apart - self._between_starts[piece] <= bound[index])
+        index, piece = index[hopeful], piece[hopeful]
+        at, distance = _descended(points[index], self.pieces[piece], start[hopeful])
+        within = distance <= reach_mm
+        index, piece, at, distance = index[within], piece[within], at[within], distance[within]
         best = np.full(len(points), np.inf)
         curve = np.full(len(points), -1, dtype=np.int64)
         where = np.full(len(points), np.nan)
@@ -112,14 +122,20 @@ class CurveSet:
         self, points: FloatArray, reach_mm: float
     ) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
         """Every (point, piece) pair within reach: point index, piece, parameter, distance, (k,) each."""
+        index, piece = self._pairs(points, reach_mm)
+        start, _ = _nearest_starts(points[index], self.pieces[piece])
+        t, distance = _descended(points[index], self.pieces[piece], start)
+        near = distance <= reach_mm
+        return index[near], piece[near], t[near], distance[near]
+
+    def _pairs(self, points: FloatArray, reach_mm: float) -> tuple[IntArray, IntArray]:
+        """Point index and piece of all that may be within reach."""
         import shapely
 
         index, piece = self._tree.query(
             shapely.points(points), predicate="dwithin", distance=reach_mm + 2 * self._sag
         )
-        t, distance = _project(points[index], self.pieces[piece])
-        near = distance <= reach_mm
-        return index[near], piece[near], t[near], distance[near]
+        return index, piece
 
     @cached_property
     def kinks(self) -> tuple[FloatArray, FloatArray]:
@@ -140,6 +156,12 @@ class CurveSet:
         _, d, dd = _values(self.pieces[piece], np.tile(t, len(self.pieces)))
         speed = np.maximum(np.linalg.norm(d, axis=1), 1e-12)
         return place, (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / speed**3
+
+    @cached_property
+    def _between_starts(self) -> FloatArray:
+        """Most that a piece runs between a place on it and the nearest start, (n,)."""
+        speed = 3 * np.linalg.norm(np.diff(self.pieces, axis=1), axis=2).max(axis=1)
+        return speed * (_STARTS[1] - _STARTS[0]) / 2 + 1e-9
 
     @cached_property
     def _tree(self) -> Any:
@@ -184,14 +206,22 @@ def _values(cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
     return point, first, second
 
 
-def _project(points: FloatArray, cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Parameter and distance of the nearest point of cubic i to point i: best of nine, then Newton."""
+def _nearest_starts(points: FloatArray, cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The best of nine parameters of cubic i for point i, and the distance there."""
     if not len(points):
         return np.empty(0), np.empty(0)
     s = 1 - _STARTS
     basis = np.stack([s**3, 3 * s**2 * _STARTS, 3 * s * _STARTS**2, _STARTS**3])
     starts = np.einsum("kt,nkd->ntd", basis, cubics)
-    t = _STARTS[((starts - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)]
+    squared = ((starts - points[:, None]) ** 2).sum(axis=2)
+    best = squared.argmin(axis=1)
+    return _STARTS[best], np.sqrt(squared[np.arange(len(points)), best])
+
+
+def _descended(points: FloatArray, cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Parameter and distance of the nearest point of cubic i to point i: Newton from a start."""
+    if not len(points):
+        return np.empty(0), np.empty(0)
     for _ in range(_NEWTON_STEPS):
         point, d, dd = _values(cubics, t)
         apart = point - points

@@ -43,6 +43,10 @@ class Channels:
         if len({wire.diameter_mm for wire in self.wires}) != 1:
             raise ValueError("a jig takes one or more wires of one diameter")
 
+    def __reduce__(self) -> tuple[type[Channels], tuple[tuple[Wire, ...], float]]:
+        """What another process gets: not what was measured here, which is many times as much."""
+        return Channels, (self.wires, self.clearance_mm)
+
     @staticmethod
     def of(wires: tuple[Wire, ...], config: JigConfig) -> Channels:
         """The wires' channels with the configured clearance."""

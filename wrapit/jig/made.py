@@ -72,8 +72,10 @@ class JigMaker:
 
     `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
     made, UnheldError where it would hold too little. `held` is the share of the turns and long stretches that
-    it would hold, planned only. `solid` says that its parts are kernel solids; `judge` looks at those once
-    more, by other means, and raises KernelError where jig and wires have anything in common.
+    it would hold, planned only. `solid` says that its parts are kernel solids: then `plan` does what needs no
+    kernel, raises as `make` does, and returns what makes the solids, to be sent to the kernel's process; and
+    `judge` looks at them once more, by other means, and raises KernelError where jig and wires have anything in
+    common.
     """
 
     kind: JigKind
@@ -81,6 +83,7 @@ class JigMaker:
     make: Callable[[Wires, Config], Made]
     held: Callable[[Wires, Config], float]
     judge: Callable[[Made, Wires, Config], Made] | None = None
+    plan: Callable[[Wires, Config], Callable[[], Made]] | None = None
 
 
 def reported(value: float) -> float:

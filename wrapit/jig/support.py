@@ -14,7 +14,7 @@ from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.jig.model import Pin, TurnSupport
-from wrapit.jig.wall_ground import FACE_STEP_MM, face_probes
+from wrapit.jig.wall_ground import FACE_STEP_MM, face_probes, inside
 
 # How deep behind the place of its face a wall must be met to count: ten times what exact faces may stray
 # (1e-3 mm), so that only a wall at the right distance does. 30 % up or down moves support by 0.003 or less.
@@ -37,7 +37,7 @@ def turn_support(channels: Channels, walls: Sequence[Region]) -> tuple[TurnSuppo
         for turn in wire.turns:
             probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, PROBE_DEPTH_MM))
             hit = np.zeros(len(probes))
-            hit[tree.query(probes, predicate="within")[0]] = 1.0
+            hit[inside(tree, probes)[0]] = 1.0
             held = hit.reshape(len(SIDES[turn.inside]), -1).max(axis=0)
             ends = np.ones(len(held))
             ends[[0, -1]] = 0.5

@@ -13,7 +13,7 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.polyline import steps
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
@@ -112,7 +112,7 @@ def _held(channels: Channels, turns: Sequence[Turn], pieces: Sequence[Any]) -> l
     tree = shapely.STRtree(pieces)
     for turn in turns:
         probes = shapely.points(face_probes(channels, turn, ROUGH_STEP_MM, TOUCH_MM))
-        for piece in sorted(set(tree.query(probes, predicate="within")[1].tolist())):
+        for piece in sorted(set(inside(tree, probes)[1].tolist())):
             held[piece].append(turn)
     return [tuple(turns) for turns in held]
 
@@ -122,6 +122,19 @@ def face_probes(channels: Channels, turn: Turn, step_mm: float, depth_mm: float)
     _, points, normals, _ = channels.stations(turn, step_mm)
     away = channels.reach_mm + depth_mm
     return np.concatenate([points + side * away * normals for side in SIDES[turn.inside]])
+
+
+def inside(tree: Any, probes: Any) -> tuple[IntArray, IntArray]:
+    """Which probe is inside which polygon of shapely's tree: pairs of indices, (k,) each.
+
+    The tree's own query would go round the whole polygon for each probe; a prepared polygon is searched.
+    """
+    import shapely
+
+    shapely.prepare(tree.geometries)
+    probe, polygon = tree.query(probes)
+    held = shapely.contains(tree.geometries[polygon], probes[probe])
+    return probe[held], polygon[held]
 
 
 def _polygons(shape: Any) -> list[Any]:

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import functools
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
-from wrapit.config import JigKind
+from wrapit.config import Config, JigKind
 from wrapit.errors import Finding, UnheldError
-from wrapit.jig.made import JigMaker, Made
-from wrapit.pipeline.solids import make_solids, write_wires
+from wrapit.jig.made import JigMaker, Made, Wires
+from wrapit.pipeline.solids import judged_solids, make_solids, write_wires
 from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import Worker
 
 # What the names of files of the other earring end in.
 MIRRORED: Final = "-mirrored"
 
+T = TypeVar("T")
+
 
 def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
-    """Makes every kind that the config asks for; solids' files, and the wires' own, go to `folder`.
+    """Makes every kind that the config asks for; solids' files go to `folder`.
 
     Raises UnheldError where the first kind would hold too little, and what `JigMaker.make` raises. A further
     kind that would is left out, and an error among the findings says so.
@@ -27,38 +32,46 @@ def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
 
     with work.stage("jig"):
         makers = [JIGS[kind] for kind in dict.fromkeys(work.config.jigs)]
-        solid = next((maker for maker in makers if maker.solid), None)
-        if solid is not None and worker is not None:
-            worker.start(make_solids, solid.kind, work.laid, work.config, folder, work.exact)
         made: dict[JigKind, Made | UnheldError] = {}
-        for maker in makers:
-            if not maker.solid:
-                made[maker.kind] = _made(maker, work)
-        if solid is not None and worker is not None:
-            made[solid.kind] = _solid_made(work, worker, "jig")
+        started: list[JigKind] = []
+        # Solids first: their process works while flat jigs are made here.
+        for maker in sorted(makers, key=lambda maker: not maker.solid):
+            if maker.plan is None or worker is None:
+                made[maker.kind] = _tried(maker.make, work)
+                continue
+            planned = _tried(maker.plan, work)
+            if isinstance(planned, UnheldError):
+                made[maker.kind] = planned
+                continue
+            making = _judged_too(planned, maker, work.laid, work.config) if work.exact else planned
+            worker.start(make_solids, making, work.config, folder)
+            started.append(maker.kind)
+        for kind in started:
+            made[kind] = _awaited(work, worker, "jig")
         _take(work, {maker.kind: made[maker.kind] for maker in makers})
-        if worker is not None and folder is not None and "step" in work.config.outputs:
-            _write_wires(work, worker, folder, "")
-        if work.config.pair and solid is not None and solid.kind in work.made and worker is not None:
-            _make_mirrored(work, worker, solid, folder)
+        _make_mirrored(work, worker, folder)
 
 
-def _made(maker: JigMaker, work: Work) -> Made | UnheldError:
+def _judged_too(
+    planned: Callable[[], Made], maker: JigMaker, wires: Wires, config: Config
+) -> Callable[[], Made]:
+    """Makes the solids and has the kind's judge look at them."""
+    return (
+        planned
+        if maker.judge is None
+        else functools.partial(judged_solids, planned, maker.judge, wires, config)
+    )
+
+
+def _tried(make: Callable[[Wires, Config], T], work: Work) -> T | UnheldError:
     try:
-        return maker.make(work.laid, work.config)
+        return make(work.laid, work.config)
     except UnheldError as unheld:
         return unheld
 
 
-def _solid_made(work: Work, worker: Worker, what: str) -> Made | UnheldError:
-    try:
-        made: Made = _awaited(work, worker, what)
-    except UnheldError as unheld:
-        return unheld
-    return made
-
-
-def _awaited(work: Work, worker: Worker, what: str) -> Any:
+def _awaited(work: Work, worker: Worker | None, what: str) -> Any:
+    assert worker is not None
     limit_s = work.config.jig.time_limit or 120 + 60 * len(work.wires)
     return worker.result(f"{work.config.name}: {what}", limit_s)
 
@@ -87,29 +100,40 @@ def _left_out(kind: JigKind, unheld: UnheldError) -> Finding:
     )
 
 
-def _write_wires(work: Work, worker: Worker, folder: Path, suffix: str) -> None:
+@contextlib.contextmanager
+def wires_beside(work: Work, worker: Worker | None, folder: Path, suffix: str = "") -> Iterator[None]:
+    """Has `wires{suffix}.step` written in the kernel's process while this one does something else."""
+    if worker is None or "step" not in work.config.outputs:
+        yield
+        return
     from wrapit.wires.mirror import mirrored, mirrored_ring
 
     wires, ring = work.wires, work.ring
     if suffix:
         wires, ring = mirrored(wires), mirrored_ring(ring)
     worker.start(write_wires, wires, ring, work.config, folder / f"wires{suffix}.step")
+    yield
     findings: tuple[Finding, ...] = _awaited(work, worker, "wires")
     work.findings += [_of_mirrored(f) if suffix else f for f in findings]
 
 
-def _make_mirrored(work: Work, worker: Worker, maker: JigMaker, folder: Path | None) -> None:
+def _make_mirrored(work: Work, worker: Worker | None, folder: Path | None) -> None:
+    """The printed jig of the other earring (`pair`), if there is one of this."""
+    from wrapit.jig.kinds import JIGS
     from wrapit.jig.printed.seats import mirrored_seats
     from wrapit.wires.mirror import mirrored
 
+    maker = next((JIGS[kind] for kind in work.made if JIGS[kind].solid), None)
+    if not work.config.pair or worker is None or maker is None or maker.plan is None:
+        return
     config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
-    worker.start(make_solids, maker.kind, mirrored(work.laid), config, folder, work.exact, MIRRORED)
+    planned = maker.plan(mirrored(work.laid), config)
+    making = _judged_too(planned, maker, mirrored(work.laid), config) if work.exact else planned
+    worker.start(make_solids, making, config, folder, MIRRORED)
     made: Made = _awaited(work, worker, "mirrored jig")
     work.mirrored = made
     work.findings += map(_of_mirrored, made.findings)
     work.report[made.block]["mirrored"] = made.numbers
-    if folder is not None and "step" in work.config.outputs:
-        _write_wires(work, worker, folder, MIRRORED)
 
 
 def _of_mirrored(finding: Finding) -> Finding:

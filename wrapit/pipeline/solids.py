@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from wrapit.config import Config, JigKind
+from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 from wrapit.jig.made import Made, Wires
 from wrapit.materials import METALS
 from wrapit.wires.model import JumpRing
 
-# What loads for seconds, while drawing and wires are made.
-PRELOAD = ("wrapit.kernel.files", "wrapit.jig.printed.stage")
+# What loads for seconds, while drawing and wires are made and jigs planned: cadquery brings OpenCascade.
+PRELOAD = ("wrapit.kernel.files", "wrapit.kernel.terraces", "wrapit.jig.printed.stage", "cadquery")
 # How far apart do jigs stand in one file? So far that each is seen as one of its own.
 _BETWEEN_MM = 10.0
 
@@ -24,20 +24,12 @@ _BETWEEN_MM = 10.0
 Frames = dict[str, list[float] | dict[str, list[float]]]
 
 
-def make_solids(
-    kind: JigKind, wires: Wires, config: Config, folder: Path | None, exact: bool = False, suffix: str = ""
-) -> Made:
-    """The jig of a kind with solids, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
+def make_solids(planned: Callable[[], Made], config: Config, folder: Path | None, suffix: str = "") -> Made:
+    """A planned jig, built and checked; its files in `folder`, `jig{suffix}.step` and so on.
 
-    `wires` are as they lie in the jig; with `exact` the kind's judge looks at it once more. The result holds
-    no kernel shapes; its numbers say in which frame each file is.
+    The result holds no kernel shapes; its numbers say in which frame each file is.
     """
-    from wrapit.jig.kinds import JIGS
-
-    maker = JIGS[kind]
-    made = maker.make(wires, config)
-    if exact and maker.judge is not None:
-        made = maker.judge(made, wires, config)
+    made = planned()
     numbers = made.numbers
     if folder is not None:
         numbers = {**numbers, "frames": _write(made, config, folder, suffix)}
@@ -46,6 +38,13 @@ def make_solids(
         numbers=numbers,
         parts=tuple(dataclasses.replace(part, solid=None) for part in made.parts),
     )
+
+
+def judged_solids(
+    planned: Callable[[], Made], judge: Callable[[Made, Wires, Config], Made], wires: Wires, config: Config
+) -> Made:
+    """A planned jig, made and looked at by its kind's judge, which raises KernelError at a fault."""
+    return judge(planned(), wires, config)
 
 
 def _write(made: Made, config: Config, folder: Path, suffix: str) -> Frames:

@@ -13,7 +13,7 @@ from wrapit.pipeline.exporting import (
     write_guide,
     write_views,
 )
-from wrapit.pipeline.jigs import MIRRORED, make_jigs
+from wrapit.pipeline.jigs import MIRRORED, make_jigs, wires_beside
 from wrapit.pipeline.solids import PRELOAD
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
@@ -36,8 +36,8 @@ def run_stages(work: Work, folder: Path | None) -> None:
             _draw_wires(work, folder)
         if work.reaches("jig"):
             make_jigs(work, worker, folder if work.reaches("exports") else None)
-    if work.reaches("exports") and folder is not None:
-        _export(work, folder)
+        if work.reaches("exports") and folder is not None:
+            _export(work, worker, folder)
     if folder is not None:
         write_text(folder / "config.lock.yaml", lock_text(work.config))
 
@@ -118,14 +118,16 @@ def _laid(work: Work) -> tuple[Wire, ...]:
     return tuple(each.wire for each in bent)
 
 
-def _export(work: Work, folder: Path) -> None:
+def _export(work: Work, worker: Worker | None, folder: Path) -> None:
     assert work.solution is not None
     jigs = list(work.made.values())
     with work.stage("exports"):
-        write_views(folder, work.wires, jigs[0])
+        with wires_beside(work, worker, folder):
+            write_views(folder, work.wires, jigs[0])
+            for made in jigs:
+                write_drawings(folder, made, work.config)
+            if "html" in work.config.outputs:
+                write_guide(folder, work.solution, work.wires, jigs, work.ring, work.config)
         if work.mirrored is not None:
-            write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)
-        for made in jigs:
-            write_drawings(folder, made, work.config)
-        if "html" in work.config.outputs:
-            write_guide(folder, work.solution, work.wires, jigs, work.ring, work.config)
+            with wires_beside(work, worker, folder, MIRRORED):
+                write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)

@@ -34,6 +34,11 @@ class PlannedJig:
         return tuple(face.region for face in self.faces)
 
     @property
+    def gap_mm(self) -> float | None:
+        """The smallest gap between any wall and any wire; None without walls."""
+        return min((face.gap_mm for face in self.faces), default=None)
+
+    @property
     def by_wire(self) -> dict[str, float]:
         """Supported share of each wire's turns."""
         return support_by_wire(self.support)

@@ -2,25 +2,45 @@
 
 from __future__ import annotations
 
-from typing import Final
+import functools
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
+from wrapit.errors import Finding
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires
 from wrapit.jig.model import JigSet
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
 from wrapit.jig.support import held_share
 
+if TYPE_CHECKING:
+    from wrapit.jig.printed.planning import PlannedJig
+
+
+def plan(wires: Wires, config: Config) -> Callable[[], Made]:
+    """Plans the printed jig of a piece, or several; what it returns makes the solids. See `JigMaker`."""
+    from wrapit.jig.printed.stage import plan_held
+
+    planned, findings = plan_held(wires, config.jig)
+    return functools.partial(_made, planned, findings, wires, config)
+
 
 def make(wires: Wires, config: Config) -> Made:
     """The printed jig of a piece, or several; see `JigMaker`. Raises KernelError too."""
-    from wrapit.jig.printed.stage import build_jig
+    return plan(wires, config)()
 
-    jigs, findings = build_jig(wires, config.jig)
+
+def _made(
+    planned: tuple[PlannedJig, ...], findings: tuple[Finding, ...], wires: Wires, config: Config
+) -> Made:
+    from wrapit.jig.printed.stage import build_planned
+
+    jigs, more = build_planned(planned, config.jig)
     return Made(
         block="jig",
         numbers=jig_numbers(jigs, wires),
-        findings=findings,
+        findings=(*findings, *more),
         parts=tuple(jig.part for jig in jigs.jigs),
         views=_views(jigs, wires),
         handling=handling(jigs),
@@ -59,4 +79,4 @@ def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
 
 
 # The kind, as `jig.kinds` lists it.
-PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held, judge=judged)
+PRINTED: Final = JigMaker("printed", solid=True, make=make, held=held, plan=plan, judge=judged)

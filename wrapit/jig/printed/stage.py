@@ -22,18 +22,40 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     Raises JigError where no jig can be made or one fails its check, UnheldError where it would hold too
     little, KernelError where the kernel fails.
     """
+    planned, findings = plan_held(wires, config)
+    jigs, more = build_planned(planned, config)
+    return jigs, (*findings, *more)
+
+
+def plan_held(
+    wires: tuple[Wire, ...], config: JigConfig
+) -> tuple[tuple[PlannedJig, ...], tuple[Finding, ...]]:
+    """The plan of each jig, before any kernel.
+
+    Raises JigError where no jig can be made or one fails its check, UnheldError where it would hold too
+    little.
+    """
     planned, findings = plan_jigs(wires, config)
     refuse_unheld((one for jig in planned for one in jig.held), config)
+    for part in planned:
+        _check_gap(part, config)
+    return planned, findings
+
+
+def build_planned(planned: tuple[PlannedJig, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
+    """The solids of planned jigs; a finding for each outline that the kernel takes as straight lines only.
+
+    Raises KernelError where the kernel fails.
+    """
     built = [_built(part, config) for part in planned]
     jigs = tuple(jig for jig, _ in built)
-    findings += tuple(finding for _, plain in built for finding in plain)
+    findings = tuple(finding for _, plain in built for finding in plain)
     return JigSet(
         "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"
     ), findings
 
 
 def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...]]:
-    gap = _checked_gap(part, config)
     made = jig_solid(part.plan, part.walls, config)
     from wrapit.kernel.measures import count_solids, size_mm
 
@@ -51,7 +73,7 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
         solids=count_solids(made.solid),
         volume_mm3=made.volume_mm3,
         support=part.support,
-        min_wall_to_wire_mm=gap,
+        min_wall_to_wire_mm=part.gap_mm,
         size_mm=size_mm(made.solid),
     )
     return jig, tuple(_plain_outline(plan.name, place) for place in made.plain)
@@ -67,12 +89,11 @@ def _plain_outline(jig: str, place: str) -> Finding:
     )
 
 
-def _checked_gap(part: PlannedJig, config: JigConfig) -> float | None:
-    gap = min((face.gap_mm for face in part.faces), default=None)
+def _check_gap(part: PlannedJig, config: JigConfig) -> None:
+    gap = part.gap_mm
     if gap is not None and gap < config.clearance - CLEARANCE_TOLERANCE_MM:
         raise JigError(
             f"a wall comes within {gap:.4f} mm of a wire",
             part.plan.name,
             "change jig.clearance or the size a little",
         )
-    return gap
