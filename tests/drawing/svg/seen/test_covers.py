@@ -61,7 +61,7 @@ def test_what_later_ink_hides_is_left_out_with_its_length(tmp_path, over, length
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     x=st.floats(22, 60),
-    wide=st.floats(9, 25),
+    wide=st.floats(11, 25),  # over four widths, also where an ellipse hides less than it is wide
     colour=st.sampled_from(["white", "black", "#c33", "ivory"]),
     turn=st.floats(-20, 20),
     shape=st.sampled_from(["rect", "ellipse", "stroke"]),

@@ -16,9 +16,9 @@ from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, rim_of
 # What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow
 # that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
 _STEP = 0.14
-# Through how narrow a place does paper not go on, in cells to either side? Where a paper's slanted edge meets
-# the picture's side, its step is blurred over a few cells.
-_LEAK = 2
+# Through how narrow a place does paper not go on, in cells more than half the look past strokes? Where a
+# paper's slanted edge meets the picture's side, the ground beside it is as narrow as a stroke: its step is gone.
+_LEAK = 1
 # What may be paper? This share of the picture at least, with this share of the ink of the region that has
 # most; and this bright: the ground of a light drawing surrounds dark fields.
 _PAPER = 0.15
@@ -52,11 +52,12 @@ def find_ground(cells: Cells) -> Ground | None:
     flat = maximum_filter(level, 3) - minimum_filter(level, 3) < _STEP
     if flat.all():
         return None
-    regions, count = label(binary_erosion(flat, iterations=_LEAK, border_value=1))
+    narrow = cells.look // 2 + _LEAK
+    regions, count = label(binary_erosion(flat, iterations=narrow, border_value=1))
     number = _paper_region(cells, regions, count)
     if number is None:
         return None
-    paper = binary_dilation(regions == number, iterations=_LEAK, mask=flat)
+    paper = binary_dilation(regions == number, iterations=narrow, mask=flat)
     paper = binary_dilation(paper, iterations=1)
     outside = _at_rim(~paper)
     outside = _other(cells, outside, paper)
