@@ -146,9 +146,15 @@ def fat_share(ink: Ink, skeleton: Skeleton) -> float:
 
 
 def _no_line_drawing(ink: Ink, where: str) -> DrawingError:
+    between = f"({100 * midtones(ink):.0f} % of it is neither ink nor paper)"
+    if ink.shaded:
+        return DrawingError(
+            f"this looks like a photo or noise, or like a drawing under a shadow or on a table {between}",
+            where,
+            "photograph the drawing in even light, or with a scanner app, and crop it to the paper",
+        )
     return DrawingError(
-        f"this looks like a photo or noise, not like a line drawing "
-        f"({100 * midtones(ink):.0f} % of it is neither ink nor paper)",
+        f"this looks like a photo or noise, not like a line drawing {between}",
         where,
         "trace its lines by hand on white paper first",
     )
