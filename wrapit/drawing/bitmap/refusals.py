@@ -83,9 +83,8 @@ def refuse_other_pictures(
     longest = lengths[0] if lengths else 0.0
     spread = float(np.ptp(skeleton.pixels, axis=0).max()) + skeleton.width_px
     if skeleton.width_px > _THICK_SHARE * spread and len(lengths) < _PIECES:
-        raise _filled(
-            where, f"the ink is {skeleton.width_px:.0f} px thick and {spread:.0f} px long", outlined
-        )
+        detail = f"the ink is {skeleton.width_px:.0f} px thick and {spread:.0f} px long"
+        raise _filled(where, detail, outlined, ink.shaded)
     if longest < _LONGEST * skeleton.width_px:
         raise DrawingError(
             "the picture holds only dots and short strokes, no lines", where, "connect them with a pen"
@@ -98,7 +97,8 @@ def refuse_other_pictures(
             "draw on plain paper, or with a pen much darker than the ruling",
         )
     if ninety > _FAT_WIDTH * middle or fat > _FAT_AREA:
-        raise _filled(where, f"{100 * fat:.0f} % of the ink is much thicker than the lines", outlined)
+        detail = f"{100 * fat:.0f} % of the ink is much thicker than the lines"
+        raise _filled(where, detail, outlined, ink.shaded)
     if ink.mask.mean() > _INK_SHARE:
         raise DrawingError(
             f"ink covers {100 * ink.mask.mean():.0f} % of the picture", where, "draw lines on empty paper"
@@ -160,10 +160,16 @@ def _no_line_drawing(ink: Ink, where: str) -> DrawingError:
     )
 
 
-def _filled(where: str, detail: str, outlined: bool) -> DrawingError:
+def _filled(where: str, detail: str, outlined: bool, shaded: bool) -> DrawingError:
     if outlined:
         problem = f"even the outlines of the filled shapes are no lines ({detail})"
         return DrawingError(problem, where, "draw their outlines by hand, larger and with a thin pen")
+    if shaded:
+        return DrawingError(
+            f"the drawing has filled shapes, or lies under a shadow or on a table ({detail})",
+            where,
+            "draw outlines only; photograph them in even light, or with a scanner app, and crop to the paper",
+        )
     return DrawingError(
         f"the drawing has filled shapes ({detail})",
         where,

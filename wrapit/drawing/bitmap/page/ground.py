@@ -17,7 +17,7 @@ from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, rim_of
 # that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
 _STEP = 0.14
 # Through how narrow a place does paper not go on, in cells more than half the look past strokes? Where a
-# paper's slanted edge meets the picture's side, the ground beside it is as narrow as a stroke: its step is gone.
+# paper's slanted edge meets the side, the ground beside it is as narrow as a stroke: its step is gone.
 _LEAK = 1
 # What may be paper? This share of the picture at least, with this share of the ink of the region that has
 # most; and this bright: the ground of a light drawing surrounds dark fields.
