@@ -35,6 +35,13 @@ _BLURRED = 3
 _SHADE = 2
 
 
+# How long is an edge of light that would be read as a line, in shares of the longer side? On 140 pictures of
+# drawings no step is longer than .2 but those of tables and mats. And how dark is a shadow at most? What is
+# darker than this share of the paper beside it is ink.
+_EDGE = 0.2
+_SHADOW = 0.4
+
+
 @dataclass(frozen=True, eq=False)
 class Ground:
     """Cells that are no paper; how bright they are in shares of the paper; whether lines run into them."""
@@ -46,10 +53,9 @@ class Ground:
 
 def find_ground(cells: Cells) -> Ground | None:
     """The ground around the paper; nothing where the paper fills the picture."""
-    from scipy.ndimage import binary_dilation, binary_erosion, label, maximum_filter, minimum_filter
+    from scipy.ndimage import binary_dilation, binary_erosion, label
 
-    level = np.log(cells.paper)
-    flat = maximum_filter(level, 3) - minimum_filter(level, 3) < _STEP
+    flat = _steps(cells, 3) < _STEP
     if flat.all():
         return None
     narrow = cells.look // 2 + _LEAK
@@ -70,6 +76,32 @@ def find_ground(cells: Cells) -> Ground | None:
     grown = binary_dilation(outside, iterations=_BLURRED)
     rim, crossed = _beside(cells.ink & ~grown, grown, cells.look + _SHADE)
     return Ground(grown | rim, float(np.median(cells.level[outside])) / usual, crossed)
+
+
+def edge_of_light(cells: Cells) -> BoolCells:
+    """The cells of a long step of the paper's level, as a shadow's edge is; none where there is no such."""
+    from scipy.ndimage import find_objects, label
+
+    steps = _steps(cells, 3) >= _STEP
+    if not steps.any():
+        return steps
+    labels, _ = label(steps, np.ones((3, 3)))
+    drop = _steps(cells, 2 * _BESIDE + 1)
+    found = np.zeros_like(steps)
+    for number, box in enumerate(find_objects(labels), 1):
+        piece = labels[box] == number
+        long = max(piece.shape) > _EDGE * max(steps.shape)
+        if long and float(np.median(drop[box][piece])) < -np.log(_SHADOW):
+            found[box] |= piece
+    return found
+
+
+def _steps(cells: Cells, reach: int) -> NDArray[np.float32]:
+    """By how much the paper's level changes within so many cells, as a logarithm."""
+    from scipy.ndimage import maximum_filter, minimum_filter
+
+    level = np.log(cells.paper)
+    return maximum_filter(level, reach) - minimum_filter(level, reach)
 
 
 def _paper_region(cells: Cells, regions: NDArray[np.int32], count: int) -> int | None:

@@ -9,7 +9,7 @@ import numpy as np
 from wrapit.drawing.bitmap.image import GreyImage
 from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, cells_of, depth, painted, sides
 from wrapit.drawing.bitmap.page.frames import find_frame
-from wrapit.drawing.bitmap.page.ground import Ground, find_ground
+from wrapit.drawing.bitmap.page.ground import Ground, edge_of_light, find_ground
 from wrapit.drawing.bitmap.page.scan_edges import Edges, find_edges
 from wrapit.drawing.changes import Change, Notice
 from wrapit.errors import DrawingError
@@ -60,6 +60,9 @@ def drawing_alone(grey: GreyImage, where: str) -> Page:
         leave_out(cells, ground.where, *_about_ground(ground))
         grey = painted(grey, cells, ground.where)
         cells = cells_of(grey)
+    lit = edge_of_light(cells)
+    if lit.any():
+        raise _edge_of_light(lit, cells.step, where)
     edges = find_edges(cells)
     if edges.run_into.any():
         raise _runs_into_edge(edges, where)
@@ -113,6 +116,15 @@ def _runs_into_ground(ground: Ground, where: str) -> DrawingError:
         f"lines run into the table under the paper or into a shadow's edge ({sides(ground.where)})",
         where,
         "photograph the whole paper in even light, or with a scanner app, and crop the photo to the paper",
+    )
+
+
+def _edge_of_light(lit: BoolCells, step: int, where: str) -> DrawingError:
+    (x, y), _ = _place(lit, step)
+    return DrawingError(
+        f"a shadow's edge, or that of a sheet or table, crosses the picture at ({x:.0f}, {y:.0f}) px",
+        where,
+        "photograph the drawing in even light, or with a scanner app, and crop the photo to the paper",
     )
 
 
