@@ -94,14 +94,14 @@ def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
             found = find_ink(grey, str(path))
         else:
             stair = stair_px(found.mask)
-    if tracing.filled == "refuse" and (whole := without_slits(found)) is not found:
-        found, grey = whole, whole.grey
     times = _reduction(found)
     if times > 1:
         grey = _reduced(softened(found, stair).grey if stair else found.grey, times)
         factor, stair = factor * times, stair / times
         found = replace(find_ink(grey, str(path)), shaded=found.shaded)
-    elif stair:
+    if tracing.filled == "refuse" and (whole := without_slits(found)) is not found:
+        found, grey = whole, whole.grey
+    if stair and times == 1:
         found = softened(found, stair)
     ink = _inked(found, tracing)
     skeleton = _skeleton(ink, path)

@@ -14,6 +14,8 @@ from wrapit.drawing.bitmap.ink import Ink
 # large (0.56 with a hard frame around), of those of thresholded ones all.
 _FULL_STEP = 0.8
 _HARD = 0.7
+# Along how many rows and columns is that looked at? From 200 to 600 nothing changes on the corpus.
+_LINES = 300
 # How large are the blocks that nearest-neighbour enlarging makes of pixels? This share of all steps lies
 # between blocks: all of them, but JPEG moves some. Larger ones than 12 are drawn as squares on purpose.
 _LARGEST_BLOCK = 12
@@ -31,8 +33,9 @@ def is_hard(ink: Ink) -> bool:
     """Whether ink turns into paper from one pixel to the next, without grey between."""
     limit = _FULL_STEP * (ink.paper - ink.ink)
     steps = full = 0
-    # Every third row and column tells enough.
-    for mask, grey in ((ink.mask[::3], ink.grey[::3]), (ink.mask[:, ::3].T, ink.grey[:, ::3].T)):
+    # Every third row and column tells enough; of large pictures, some hundreds.
+    every = max(3, min(ink.mask.shape) // _LINES)
+    for mask, grey in ((ink.mask[::every], ink.grey[::every]), (ink.mask.T[::every], ink.grey.T[::every])):
         row, column = np.nonzero(_changes(mask, 1))
         before, after = grey[row, column].astype(np.int16), grey[row, column + 1]
         steps += len(row)
