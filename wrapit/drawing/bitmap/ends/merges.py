@@ -18,13 +18,16 @@ from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle
 
-_MOST_RAD = np.radians(60)
+_MOST_RAD = np.radians(80)
+_BACK_RAD = np.radians(95)
+_ACUTE_RAD = np.radians(35)
 _REACH = 2.2
 _BEHIND = 3.0
 _STEP = 8
 _PARTED = 0.1
 _MERGED = 0.1
 _ALONE = 1.5
+_KNOWN = 1.0
 _MISFIT = 0.06
 _DIP = 0.03
 _FEWEST = 5
@@ -43,6 +46,7 @@ class Merge:
     pair: tuple[int, int]
     single: int
     departs: float
+    turn: float
 
 
 def find_merge(arms: list[Arm], ink: Ink) -> Merge | None:
@@ -54,39 +58,41 @@ def find_merge(arms: list[Arm], ink: Ink) -> Merge | None:
     apart = [angle(outward[(k + 1) % 3], outward[(k + 2) % 3]) for k in range(3)]
     stem = int(np.argmin(apart))
     a, b = (stem + 1) % 3, (stem + 2) % 3
-    if apart[stem] > _MOST_RAD or min(apart[a], apart[b]) < np.pi - _MOST_RAD:
+    if apart[stem] > _MOST_RAD or min(apart[a], apart[b]) < _BACK_RAD:
         return None
     found = [_merged(arms, stem, other, single, ink) for other, single in ((a, b), (b, a))]
     known = [merge for merge in found if merge is not None]
-    return max(known, key=lambda merge: merge.departs) if known else None
+    if len(known) < 2:
+        return None
+    best = max(known, key=lambda merge: merge.departs)
+    return best if best.turn < _ACUTE_RAD else None
 
 
 def _merged(arms: list[Arm], stem: int, other: int, single: int, ink: Ink) -> Merge | None:
     one, width = arms[single], arms[single].width_px
-    on, along = _sampled(through(arms[stem], arms[other]), width)
+    behind = int(min(_BEHIND, arms[stem].length / width) * _STEP)
+    on, along = _sampled(through(arms[stem], arms[other]), behind, width)
     across = np.column_stack([-along[:, 1], along[:, 0]])
     start = one.points[0]
     nearest = int(np.argmin(np.linalg.norm(on - start, axis=1)))
     if (start - on[nearest]) @ across[nearest] < 0:
         across = -across
     left, right = edges(ink, on, across, _REACH * width, max(0.25, width / 24))
-    behind = int(_BEHIND * _STEP)
     alone = (left + right)[:behind]
     if np.isnan(alone).mean() > 0.5:
         return None
     broad = float(np.nanmedian(alone))
     if not 0.6 * width < broad < 1.5 * width:
         return None
-    shared = _shared(right, broad)
-    if shared < behind:
-        return None
+    shared = behind + _shared(right[behind:], broad)
     course = on - (np.nan_to_num(left, nan=broad / 2) - broad / 2)[:, None] * across
     inner = _beside(on[:shared] + right[:shared, None] * across[:shared], across[:shared], broad / 2)
     apart = ((inner - course[:shared]) * across[:shared]).sum(axis=1)
     known = np.flatnonzero(np.isfinite(apart) & (apart > _MERGED * broad))
     if len(known) < _FEWEST:
         return None
-    arc = _arc(np.vstack([inner[known], one.points[one.along <= _ALONE * width]]), width)
+    alone = one.points[one.along <= _ALONE * width] if one.length > _KNOWN * width else inner[:0]
+    arc = _arc(np.vstack([inner[known], alone]), width)
     if arc is None:
         return None
     gap = arc.distance(course[: known[-1] + 1])
@@ -98,8 +104,10 @@ def _merged(arms: list[Arm], stem: int, other: int, single: int, ink: Ink) -> Me
     point = (1 - share) * course[k] + share * course[min(k + 1, len(course) - 1)]
     direction = arc.direction(point)
     direction = direction if direction @ along[k] > 0 else -direction
+    turn = angle(direction, along[k])
     departs = float(np.abs(gap[:behind]).mean())
-    return Merge(point, direction, np.zeros((0, 2)), (stem, other), single, departs)
+    lead = inner[known[known > at + 1]]
+    return Merge(point, direction, lead, (stem, other), single, departs, turn)
 
 
 def _beside(edge: FloatArray, across: FloatArray, far: float) -> FloatArray:
@@ -111,9 +119,9 @@ def _beside(edge: FloatArray, across: FloatArray, far: float) -> FloatArray:
     return edge - far * normal
 
 
-def _sampled(curve: Through, width: float) -> tuple[FloatArray, FloatArray]:
+def _sampled(curve: Through, behind: int, width: float) -> tuple[FloatArray, FloatArray]:
     """Places and directions (n, 2) along a curve, from its first arm on to its second."""
-    at = np.arange(-curve.gap / 2 - _BEHIND * width, curve.gap / 2, width / _STEP)
+    at = np.arange(-curve.gap / 2 - behind * width / _STEP, curve.gap / 2, width / _STEP)
     powers = at[:, None] ** np.arange(len(curve.coefficients))
     slopes = np.arange(1, len(curve.coefficients))
     return powers @ curve.coefficients, unit((powers[:, :-1] * slopes) @ curve.coefficients[1:])
