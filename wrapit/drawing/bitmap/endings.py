@@ -9,7 +9,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm
 from wrapit.drawing.bitmap.ends.caps import find_cap
-from wrapit.drawing.bitmap.ends.merges import find_merge
+from wrapit.drawing.bitmap.ends.merges import Merge, find_merge
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
@@ -73,7 +73,11 @@ def place(
             endings[k] = Ending(tangent, lead, arms[k].cut + _passed(arms[k], point, tangent))
     through_tangents = [endings[k].tangent for k in endings]
     for k in single:
-        endings[k] = _single_ending(arms[k], point, through_tangents)
+        endings[k] = (
+            _single_ending(arms[k], point, through_tangents)
+            if merge is None
+            else _merged_ending(arms[k], merge, through_tangents)
+        )
     return point, [endings[k] for k in range(len(arms))]
 
 
@@ -109,6 +113,14 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
         # The extrapolation misses the junction: a plain line from there is the better guess.
         direction = unit(start - point) if gap > 1e-6 else direction
     return Ending(direction, np.zeros((0, 2)), cut)
+
+
+def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> Ending:
+    """Along the arc between the joint and the arm; tangentially to the other stroke where it is nearly so."""
+    tangent = min(tangents, key=lambda along: angle(along, merge.direction))
+    if angle(tangent, merge.direction) > _SNAP_RAD:
+        tangent = merge.direction
+    return Ending(tangent, merge.lead, single.cut)
 
 
 def _passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:

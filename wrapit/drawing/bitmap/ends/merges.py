@@ -106,7 +106,8 @@ def _merged(arms: list[Arm], stem: int, other: int, single: int, ink: Ink) -> Me
     direction = direction if direction @ along[k] > 0 else -direction
     turn = angle(direction, along[k])
     departs = float(np.abs(gap[:behind]).mean())
-    lead = inner[known[known > at + 1]]
+    lead = arc.nearest(inner[known[known > at + 1]])[::2]
+    lead = lead[(lead - start) @ one.at(0.0)[1] < 0]
     return Merge(point, direction, lead, (stem, other), single, departs, turn)
 
 
@@ -154,6 +155,13 @@ class _Arc:
         a, b, c = self.terms
         value = y - a * (x * x + y * y) - b * x - c
         return value / np.hypot(1 - 2 * a * y, 2 * a * x + b)
+
+    def nearest(self, points: FloatArray) -> FloatArray:
+        """The points (n, 2) of the arc next to others near it."""
+        a, b, _ = self.terms
+        x, y = ((points - self.centre) @ self.axes.T).T
+        normal = unit(np.column_stack([-2 * a * x - b, 1 - 2 * a * y])) @ self.axes
+        return points - self.distance(points)[:, None] * normal
 
     def direction(self, point: FloatArray) -> FloatArray:
         x, y = self.axes @ (point - self.centre)
