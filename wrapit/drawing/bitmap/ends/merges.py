@@ -30,6 +30,9 @@ _ALONE = 1.5
 _KNOWN = 1.0
 _MISFIT = 0.06
 _DIP = 0.03
+_NEAR = 0.2
+_TOGETHER = 1.5
+_TOLD = 0.03
 _FEWEST = 5
 
 
@@ -100,15 +103,23 @@ def _merged(arms: list[Arm], stem: int, other: int, single: int, ink: Ink) -> Me
     at = _meeting(gap / width)
     if at is None:
         return None
-    k, share = int(at), at % 1
-    point = (1 - share) * course[k] + share * course[min(k + 1, len(course) - 1)]
-    direction = arc.direction(point)
-    direction = direction if direction @ along[k] > 0 else -direction
-    turn = angle(direction, along[k])
+    point, direction = _along(arc, course, along, at)
+    turn = angle(direction, along[int(at)])
+    if _reached(gap / width, _NEAR, at) - at > _TOGETHER * _STEP:
+        at = _reached(gap / width, _TOLD, at)
+        point, direction = _along(arc, course, along, at)
     departs = float(np.abs(gap[:behind]).mean())
     lead = arc.nearest(inner[known[known > at + 1]])[::2]
     lead = lead[(lead - start) @ one.at(0.0)[1] < 0]
     return Merge(point, direction, lead, (stem, other), single, departs, turn)
+
+
+def _along(arc: _Arc, course: FloatArray, along: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:
+    """A place between two points of a stroke's course, and the arc's direction there."""
+    k, share = int(at), at % 1
+    point = (1 - share) * course[k] + share * course[min(k + 1, len(course) - 1)]
+    direction = arc.direction(point)
+    return point, direction if direction @ along[k] > 0 else -direction
 
 
 def _beside(edge: FloatArray, across: FloatArray, far: float) -> FloatArray:
@@ -182,7 +193,7 @@ def _arc(points: FloatArray, width: float) -> _Arc | None:
 
 
 def _meeting(gap: FloatArray) -> float | None:
-    """Where two strokes meet, walking back along one; `gap` (n,) is its distance from the other in widths."""
+    """Where two strokes meet or touch, walking back along one; `gap` (n,) is its distance from the other in widths."""
     below = np.flatnonzero(gap <= 0)
     first = int(below[-1]) if len(below) else int(np.argmin(gap))
     if first == len(gap) - 1 or (first == 0 and gap[0] > _DIP):
@@ -192,4 +203,12 @@ def _meeting(gap: FloatArray) -> float | None:
         dip -= 1
     if gap[dip] > -_DIP:
         return float(dip)
-    return first + float(gap[first] / (gap[first] - gap[first + 1]))
+    return _reached(gap, 0.0, first)
+
+
+def _reached(gap: FloatArray, level: float, start: float) -> float:
+    """Where a gap (n,) grows beyond a level, from some place on."""
+    after = int(start) + int(np.argmax(gap[int(start) :] > level))
+    if after <= start:
+        return start
+    return after - 1 + float((level - gap[after - 1]) / (gap[after] - gap[after - 1]))
