@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import shapely
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.spatial.distance import cdist
 
 from tests.drawing.bitmap.figures import CENTRE, SHIFTS, TURNS, few, in_pixels, turned
 from tests.drawing.generated import Points, degrees
@@ -30,9 +30,9 @@ def strokes(bends: tuple[float, float], degrees_apart: float, width: float) -> l
     reach = [min(8 * width, 2.0 / abs(bend) if bend else math.inf) for bend in (first, second)]
     through = np.vstack([arc(-first, reach[0], math.pi)[::-1], arc(first, reach[0], 0.0)[1:]])
     leaving = arc(second, reach[1], math.radians(degrees_apart))
-    apart = cdist(leaving, through).min(axis=1)
+    apart = shapely.distance(shapely.LineString(through), shapely.points(leaving))
     parted = apart > 1.6 * width
-    assume(apart.max() > 2.5 * width and (np.diff(apart[: int(np.argmax(parted))]) > -0.03 * width).all())
+    assume(apart.max() > 2.5 * width and (np.diff(apart[: int(np.argmax(parted))]) > -0.01).all())
     assume(parted[int(np.argmax(parted)) :].all())
     return [CENTRE + through, CENTRE + leaving]
 
@@ -56,7 +56,7 @@ def test_a_stroke_ends_on_the_centre_of_another(traced, angle, first, second, wi
 
 
 @few
-@given(st.floats(20, 32), BENDS, BENDS, WIDTHS, TURNS)
+@given(st.floats(24, 32), BENDS, BENDS, WIDTHS, TURNS)
 def test_its_direction_is_that_of_the_stroke(traced, angle, first, second, width, turn):
     curves = strokes((first, second), angle, width)
     drawing, _ = traced([turned(curve, turn) for curve in curves], width)
