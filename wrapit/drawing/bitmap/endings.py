@@ -9,6 +9,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm
 from wrapit.drawing.bitmap.ends.caps import find_cap
+from wrapit.drawing.bitmap.ends.merges import Merge, find_merge
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
@@ -34,13 +35,16 @@ class Ending:
 
 
 def place(
-    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]]
+    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]], ink: Ink
 ) -> tuple[FloatArray, list[Ending]]:
     """The point where the arms meet, and how each leaves it; `pairs` of arms continue each other.
 
     The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
     to the extrapolated single arms (0.3), and weakly to `around`.
     """
+    merge = find_merge(arms, ink) if len(arms) == 3 else None
+    if merge is not None:
+        pairs = [merge.pair]
     curves = [through(arms[i], arms[j]) for i, j in pairs]
     single = [k for k in range(len(arms)) if not any(k in pair_ for pair_ in pairs)]
     point: FloatArray = around
@@ -56,6 +60,8 @@ def place(
             along = nearest_along(arms[k].terms, point, 0.0, -4 * arms[k].width_px, 0.0)
             pulls.append((_SINGLE_WEIGHT, *horner(arms[k].terms, along)))
         point = _pulled(point, prior, pulls)
+    if merge is not None:
+        point = merge.point
     endings: dict[int, Ending] = {}
     for (i, j), curve, foot in zip(pairs, curves, feet, strict=True):
         foot_now = curve.foot(point, foot)
@@ -67,7 +73,11 @@ def place(
             endings[k] = Ending(tangent, lead, arms[k].cut + _passed(arms[k], point, tangent))
     through_tangents = [endings[k].tangent for k in endings]
     for k in single:
-        endings[k] = _single_ending(arms[k], point, through_tangents)
+        endings[k] = (
+            _single_ending(arms[k], point, through_tangents)
+            if merge is None
+            else _merged_ending(arms[k], merge, through_tangents)
+        )
     return point, [endings[k] for k in range(len(arms))]
 
 
@@ -103,6 +113,14 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
         # The extrapolation misses the junction: a plain line from there is the better guess.
         direction = unit(start - point) if gap > 1e-6 else direction
     return Ending(direction, np.zeros((0, 2)), cut)
+
+
+def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> Ending:
+    """Along the arc between the joint and the arm; tangentially to the other stroke where it is nearly so."""
+    tangent = min(tangents, key=lambda along: angle(along, merge.direction))
+    if angle(tangent, merge.direction) > _SNAP_RAD:
+        tangent = merge.direction
+    return Ending(tangent, merge.lead, single.cut)
 
 
 def _passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:

@@ -237,7 +237,7 @@ def _fitted(
         elif graph.is_seam(node):
             _seam(graph, lines, node, endings, width_px)
         else:
-            graph.nodes[node], found = place(arms, graph.nodes[node], _pairs(graph, node, arms))
+            graph.nodes[node], found = place(arms, graph.nodes[node], _pairs(graph, node, arms), ink)
             for arm, ending in zip(arms, found, strict=True):
                 endings[arm.strand, arm.end] = ending
     strokes = [

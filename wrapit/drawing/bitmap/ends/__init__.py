@@ -1,1 +1,1 @@
-"""How strokes end: caps, and small rings at a stem."""
+"""How strokes end: caps, small rings at a stem, and joints at a small angle."""
