@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -50,6 +51,29 @@ def test_any_order_and_any_numbers_give_the_same_text(
     order, numbers = list(plain), [n + 1 for n in chance.sample(range(100), count)]
     chance.shuffle(order)
     assert written(order, numbers) == written(plain, [n + 1 for n in plain])
+
+
+@pytest.mark.parametrize(
+    "uses",
+    [
+        # Two that use one thing twice or two things once each: who else uses them tells them apart.
+        [[], [], [0, 1], [1], [1, 1], []],
+        # Rings of two and of three users: all see the same around them, however far they look.
+        [[], [], [], [], [], [0, 1], [1, 0], [2, 3], [3, 4], [4, 2]],
+    ],
+)
+def test_roots_that_tie_are_told_apart_by_what_they_share(uses: list[list[int]]) -> None:
+    chance = random.Random(1)
+    texts = set()
+    for _ in range(50):
+        numbers = chance.sample(range(1, 99), len(uses))
+        lines = [
+            f"#{number}=A({','.join(f'#{numbers[n]}' for n in used)});"
+            for number, used in zip(numbers, uses, strict=True)
+        ]
+        chance.shuffle(lines)
+        texts.add(canonical_step(HEAD + "\n".join(lines) + "\n" + TAIL, "a"))
+    assert len(texts) == 1
 
 
 @given(st.text(st.characters(exclude_categories=("Cs", "Cc")), max_size=20))

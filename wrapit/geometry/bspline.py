@@ -73,7 +73,7 @@ class BSpline:
 
 
 def from_chain(chain: BezierChain) -> BSpline:
-    """The chain as ONE clamped cubic B-spline with the same points, exactly.
+    """The chain as ONE clamped cubic B-spline with the same points, within SMOOTH_JOINT_MM at joints.
 
     Knot steps follow the ratio of the derivatives at each joint, so a joint with one tangent (G1)
     becomes a double knot (C1) and its pole disappears; triple knots stay only at corners.

@@ -2,7 +2,8 @@
 
 Each entity gets a digest of its text with references replaced by the digests of what they name; points,
 curves and surfaces of equal digests become one; entities are then numbered in the order in which they are
-reached from the roots, roots sorted by digest.
+reached from the roots, roots sorted by digest. Roots that say the same of different entities are told apart
+by who else uses these (colour refinement, Weisfeiler and Leman 1968).
 """
 
 from __future__ import annotations
@@ -67,9 +68,10 @@ def canonical_step(text: str, file_name: str) -> str:
     uses = {number: _references(body) for number, body in entities.items()}
     digests = _digests(entities, uses)
     used = {reference for references in uses.values() for reference in references}
-    roots = sorted((n for n in entities if n not in used), key=lambda n: (digests[n], n))
     one = _one_of_each(entities, digests)
-    order = _reached(roots, {n: [one[reference] for reference in uses[n]] for n in entities})
+    uses = {number: [one[reference] for reference in references] for number, references in uses.items()}
+    roots = _sorted_roots([n for n in entities if n not in used], uses, digests)
+    order = _reached(roots, uses)
     new = {old: index for index, old in enumerate(order, start=1)}
     numbers = {old: new[one[old]] for old in entities if one[old] in new}
     usages = 0
@@ -133,6 +135,49 @@ def _one_of_each(entities: dict[int, str], digests: dict[int, str]) -> dict[int,
         number: first.setdefault(digests[number], number) if body.startswith(_SHAPES) else number
         for number, body in entities.items()
     }
+
+
+def _sorted_roots(roots: list[int], uses: dict[int, list[int]], digests: dict[int, str]) -> list[int]:
+    """Roots in an order that doesn't depend on their numbers.
+
+    A digest doesn't say whether two roots share what they refer to or have one each. Where that leaves a
+    choice, colours spread to users as well; of roots that tie even then, as on two rings of users, the one
+    whose choice gives the least colours to all comes first, and the colours spread from there.
+    """
+    colours = _spread(digests, uses) if _first_tied(roots, uses, digests) else digests
+    while tied := _first_tied(roots, uses, colours):
+        trials = [_spread({**colours, root: colours[root] + "first"}, uses) for root in tied]
+        colours = min(trials, key=lambda trial: sorted(trial.values()))
+    return sorted(roots, key=lambda root: (colours[root], root))
+
+
+def _first_tied(roots: list[int], uses: dict[int, list[int]], colours: dict[int, str]) -> list[int]:
+    """The roots of the least colour that roots of different references share."""
+    alike: dict[str, list[int]] = {}
+    for root in roots:
+        alike.setdefault(colours[root], []).append(root)
+    tied = [colour for colour, group in alike.items() if any(uses[n] != uses[group[0]] for n in group)]
+    return alike[min(tied)] if tied else []
+
+
+def _spread(colours: dict[int, str], uses: dict[int, list[int]]) -> dict[int, str]:
+    """Colours refined by those of users and used, until no more of them differ."""
+    users: dict[int, list[tuple[int, int]]] = {number: [] for number in uses}
+    for number, references in uses.items():
+        for place, reference in enumerate(references):
+            users[reference].append((place, number))
+    count = len(set(colours.values()))
+    while True:
+        refined = {}
+        for number, references in uses.items():
+            above = sorted(f"{place}:{colours[user]}" for place, user in users[number])
+            # Which of its references are one is seen from nowhere else.
+            below = [f"{references.index(reference)}:{colours[reference]}" for reference in references]
+            told = "|".join([colours[number], *below, "", *above])
+            refined[number] = hashlib.sha1(told.encode("ascii")).hexdigest()
+        if len(set(refined.values())) == count:
+            return refined
+        colours, count = refined, len(set(refined.values()))
 
 
 def _quoted_hash(match: re.Match[str]) -> str:
