@@ -16,10 +16,10 @@ from wrapit.kernel.meshes import Mesh, mesh_of
 from wrapit.kernel.objects import FilePart, cadquery_assembly
 from wrapit.kernel.steptext import canonical_step, carried
 
-__all__ = ["FilePart", "write_3mf", "write_step", "write_stl"]
+__all__ = ["FilePart", "write_3mf", "write_printable", "write_step", "write_stl"]
 
-# How coarse may facets be? At 0.005 mm, 0.2 makes 104 144 triangles of four jigs (0.14: 114 518, 0.5: 96 346),
-# all of them closed; the distance is the config's.
+# How coarse may facets be? At 0.005 mm, 0.2 makes 104 144 triangles of four jigs (0.14: 114 518, 0.5:
+# 96 346), all of them closed; a build takes the distance from its config, which says the same unless told.
 ANGLE_RAD = 0.2
 TOLERANCE_MM = 0.005
 # The first date that a ZIP can hold; same parts, same bytes.
