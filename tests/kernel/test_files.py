@@ -12,14 +12,16 @@ import numpy as np
 import pytest
 
 from tests.jig.metal import arcs, circle, line, wires_of
+from tests.kernel.test_terraces import box
 from wrapit.config import JigConfig
 from wrapit.errors import WrapItError
 from wrapit.jig.model import Jig
 from wrapit.jig.printed.stage import build_jig
-from wrapit.kernel.files import write_3mf, write_step, write_stl
+from wrapit.kernel.files import write_3mf, write_printable, write_step, write_stl
 from wrapit.kernel.measures import volume_mm3
 from wrapit.kernel.objects import FilePart
 from wrapit.kernel.sweeps import round_wire
+from wrapit.kernel.terraces import terraced_solid
 
 COPPER, GREY = "#b87333", "#c8ccd4"
 CHAINS = [arcs((0, 0), 0, (9, 180), (12, 0)), circle(6, (20.0, 5.0)), line((-5, 3), (26, 4))]
@@ -166,3 +168,17 @@ def product_names(path: Path) -> set[str]:
         labels.Value(index).FindAttribute(TDataStd_Name.GetID_s(), name)
         names.add(TCollection_AsciiString(name.Get()).ToCString())
     return names
+
+
+def test_both_files_for_printers_are_those_that_each_would_be_alone(tmp_path: Path) -> None:
+    made = terraced_solid(box(0, 0, 10, 10), 0.0, 2.0, [], [], "plate")
+    part = FilePart("plate", made.solid, GREY)
+    write_stl(tmp_path / "alone.stl", [part.solid], 0.01)
+    write_3mf(tmp_path / "alone.3mf", [part], 0.01)
+    write_printable(part, tmp_path / "a.stl", tmp_path / "a.3mf", 0.01)
+    write_printable(part, None, tmp_path / "only.3mf", 0.01)
+    write_printable(part, None, None, 0.01)
+    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "alone.stl").read_bytes()
+    assert (tmp_path / "a.3mf").read_bytes() == (tmp_path / "alone.3mf").read_bytes()
+    assert (tmp_path / "only.3mf").read_bytes() == (tmp_path / "alone.3mf").read_bytes()
+    assert len(list(tmp_path.iterdir())) == 5

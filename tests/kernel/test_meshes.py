@@ -48,6 +48,15 @@ def test_upright_faces_have_no_corner_between_foot_and_head(turned: bool) -> Non
     assert mesh.volume_mm3 == pytest.approx(solid.volume_mm3, rel=1e-3)
 
 
+def test_a_round_surface_is_followed_inside_its_faces_too() -> None:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeSphere
+
+    mesh = mesh_of([BRepPrimAPI_MakeSphere(5.0).Solid()], 0.002, 0.2)
+    a, b, c = (mesh.corners[mesh.triangles[:, k]] for k in range(3))
+    assert np.linalg.norm((a + b + c) / 3, axis=1).min() > 5.0 - 0.01
+    assert mesh.open_edges == 0
+
+
 def test_mesh_notices_a_missing_face() -> None:
     from OCP.BRep import BRep_Builder
     from OCP.TopAbs import TopAbs_FACE

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
-from wrapit.jig.model import Hole, Pin
+from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_obstacles, hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_holes, pin_obstacles
+from wrapit.jig.support import turn_support
+from wrapit.jig.wall_face import Face, wall_face
 from wrapit.jig.wall_ground import wall_polygons
-from wrapit.wires.model import Turn
+from wrapit.wires.model import Turn, Wire
+
+# How many groups of wires are remembered with their walls, from one kind of jig to the next? A piece whose
+# wires are parted tries the whole and each wire alone: 12 holds all of a piece of eleven wires.
+_REMEMBERED = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,3 +52,27 @@ def plan_walls(channels: Channels, config: JigConfig, pockets: Any) -> WallPlan:
         blocked = shapely.union_all([blocked, pin_obstacles(pins)])
         polygons, dropped = wall_polygons(channels, config, blocked)
     return WallPlan(tuple(polygons), tuple(pins), tuple(holes), rims, blocked, dropped)
+
+
+@dataclass(frozen=True, eq=False)
+class StandingWalls:
+    """Walls with nothing but the wires to mind, their exact faces, and what these hold of each turn."""
+
+    channels: Channels
+    plan: WallPlan
+    faces: tuple[Face, ...]
+    support: tuple[TurnSupport, ...]
+
+
+@lru_cache(_REMEMBERED)
+def standing_walls(wires: tuple[Wire, ...], config: JigConfig) -> StandingWalls:
+    """The walls of these wires where no seats are in their way.
+
+    Printed jigs are made of them, and sheet jigs share them out as these do: so they are remembered.
+    """
+    import shapely
+
+    channels = Channels.of(wires, config)
+    plan = plan_walls(channels, config, shapely.Polygon())
+    faces = tuple(wall_face(channels, Wall(turns, polygon, 0.0)) for polygon, turns in plan.polygons)
+    return StandingWalls(channels, plan, faces, turn_support(channels, [face.region for face in faces]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -34,15 +35,40 @@ def spline_curve(spline: BSpline, z: FloatArray | float = 0.0) -> Any:
     return Geom_BSplineCurve(poles, knots, multiplicities, spline.degree)
 
 
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A loop as the kernel gets it: its lines and arcs, and curves as few smooth runs."""
+
+    loop: Loop
+    parts: tuple[Line | Arc | BSpline, ...]
+
+    @property
+    def area_mm2(self) -> float:
+        """Exact signed area inside, positive counter-clockwise."""
+        runs = [part for part in self.parts if isinstance(part, BSpline)]
+        straight = Loop(tuple(part for part in self.parts if not isinstance(part, BSpline)))
+        return loop_area_mm2(straight) + sum(map(swept_area_mm2, runs))
+
+
+def followed(loop: Loop, slack_mm: float = RUN_TOLERANCE_MM) -> Followed:
+    """The loop with its curves as smooth runs within the slack, divided at corners."""
+    return Followed(loop, tuple(part for edge in loop.edges for part in _parts(edge, slack_mm)))
+
+
 def loop_edges(loop: Loop, z: float = 0.0, slack_mm: float = RUN_TOLERANCE_MM) -> list[Any]:
     """The loop's edges at height z, sharing their vertices, in its order; curves as few smooth runs.
 
     The runs are within the slack of the curves.
     """
+    return edges_of(followed(loop, slack_mm), z)
+
+
+def edges_of(loop: Followed, z: float = 0.0) -> list[Any]:
+    """The edges of a followed loop at height z, sharing their vertices, in its order."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
     from OCP.gp import gp_Pnt
 
-    edges = [part for edge in loop.edges for part in _parts(edge, slack_mm)]
+    edges = loop.parts
     starts = [_start(edge) for edge in edges]
     vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, z)).Vertex() for x, y in starts]
     return [
@@ -78,17 +104,14 @@ def plane_face(outer: Any, holes: Sequence[Any], z: float) -> Any:
 
 def region_face(region: Region, z: float = 0.0, slack_mm: float = RUN_TOLERANCE_MM) -> Any:
     """The region as a flat face at height z, facing up; its edges within the slack of the region's."""
-    outer = wire_of(loop_edges(turned(region.outer, counter_clockwise=True), z, slack_mm))
-    holes = [wire_of(loop_edges(turned(hole, counter_clockwise=False), z, slack_mm)) for hole in region.holes]
+    outer, *holes = (wire_of(edges_of(loop, z)) for loop in followed_loops(region, slack_mm))
     return plane_face(outer, holes, z)
 
 
-def followed_area_mm2(region: Region, slack_mm: float) -> float:
-    """Exact area between the region's edges as `loop_edges` makes them."""
-    outer = _followed_area(turned(region.outer, counter_clockwise=True), slack_mm)
-    return outer + sum(
-        _followed_area(turned(hole, counter_clockwise=False), slack_mm) for hole in region.holes
-    )
+def followed_loops(region: Region, slack_mm: float) -> list[Followed]:
+    """The region's outline, counter-clockwise, then its holes, clockwise, each followed within the slack."""
+    outer = followed(turned(region.outer, counter_clockwise=True), slack_mm)
+    return [outer, *(followed(turned(hole, counter_clockwise=False), slack_mm) for hole in region.holes)]
 
 
 def turned(loop: Loop, *, counter_clockwise: bool) -> Loop:
@@ -108,13 +131,6 @@ def _parts(edge: Edge, slack_mm: float) -> list[Line | Arc | BSpline]:
     if not isinstance(edge, BezierChain):
         return [edge]
     return [run for smooth in between_corners(edge.points) for run in smooth_runs(smooth, slack_mm)]
-
-
-def _followed_area(loop: Loop, slack_mm: float) -> float:
-    """Signed area inside the loop's runs, positive counter-clockwise."""
-    parts = [part for edge in loop.edges for part in _parts(edge, slack_mm)]
-    straight = Loop(tuple(part for part in parts if not isinstance(part, BSpline)))
-    return loop_area_mm2(straight) + sum(swept_area_mm2(part) for part in parts if isinstance(part, BSpline))
 
 
 def _backwards(edge: Edge) -> Edge:

@@ -16,13 +16,12 @@ from wrapit.kernel.meshes import Mesh, mesh_of
 from wrapit.kernel.objects import FilePart, cadquery_assembly
 from wrapit.kernel.steptext import canonical_step, carried
 
-__all__ = ["FilePart", "write_3mf", "write_step", "write_stl"]
+__all__ = ["FilePart", "write_3mf", "write_printable", "write_step", "write_stl"]
 
-# How coarse may facets be? STL is for printing: at 0.005 mm, 0.2 makes 104 144 triangles of four jigs (0.14:
-# 114 518, 0.5: 96 346), all of them closed; the distance is the config's. 3MF holds text, so half as many
-# triangles, which are within 0.02 mm of the surface (volumes right to 1e-4).
-STL_ANGLE_RAD = 0.2
-COARSE_TOLERANCE_MM, COARSE_ANGLE_RAD = 0.02, 0.3
+# How coarse may facets be? At 0.005 mm, 0.2 makes 104 144 triangles of four jigs (0.14: 114 518, 0.5:
+# 96 346), all of them closed; a build takes the distance from its config, which says the same unless told.
+ANGLE_RAD = 0.2
+TOLERANCE_MM = 0.005
 # The first date that a ZIP can hold; same parts, same bytes.
 _ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 
@@ -41,7 +40,29 @@ def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
 def write_stl(path: Path, solids: Sequence[Any], tolerance_mm: float) -> None:
     """Binary STL, watertight, no facet farther from the surface than the tolerance."""
     with guarded("writing STL", path.name):
-        mesh = mesh_of(solids, tolerance_mm, STL_ANGLE_RAD)
+        _write_stl(path, mesh_of(solids, tolerance_mm, ANGLE_RAD))
+
+
+def write_3mf(path: Path, parts: Sequence[FilePart], tolerance_mm: float = TOLERANCE_MM) -> None:
+    """3MF in mm (core specification 1.3): one named, coloured object for each part, in place."""
+    with guarded("writing 3MF", path.name):
+        _write_3mf(path, parts, [mesh_of([part.solid], tolerance_mm, ANGLE_RAD) for part in parts])
+
+
+def write_printable(part: FilePart, stl: Path | None, three_mf: Path | None, tolerance_mm: float) -> None:
+    """The part as STL, 3MF or both, of the same triangles."""
+    paths = [path for path in (stl, three_mf) if path is not None]
+    if not paths:
+        return
+    with guarded("dividing into triangles", paths[0].name):
+        mesh = mesh_of([part.solid], tolerance_mm, ANGLE_RAD)
+    if stl is not None:
+        _write_stl(stl, mesh)
+    if three_mf is not None:
+        _write_3mf(three_mf, [part], [mesh])
+
+
+def _write_stl(path: Path, mesh: Mesh) -> None:
     a, b, c = (mesh.corners[mesh.triangles[:, k]].astype("<f4") for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
@@ -51,15 +72,7 @@ def write_stl(path: Path, solids: Sequence[Any], tolerance_mm: float) -> None:
     path.write_bytes(header + np.uint32(len(facets)).tobytes() + facets.tobytes())
 
 
-def write_3mf(
-    path: Path,
-    parts: Sequence[FilePart],
-    tolerance_mm: float = COARSE_TOLERANCE_MM,
-    angle_rad: float = COARSE_ANGLE_RAD,
-) -> None:
-    """3MF in mm (core specification 1.3): one named, coloured object for each part, in place."""
-    with guarded("writing 3MF", path.name):
-        meshes = [mesh_of([part.solid], tolerance_mm, angle_rad) for part in parts]
+def _write_3mf(path: Path, parts: Sequence[FilePart], meshes: Sequence[Mesh]) -> None:
     entries = {
         "[Content_Types].xml": _CONTENT_TYPES,
         "_rels/.rels": _RELATIONS,

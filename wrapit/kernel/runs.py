@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from math import comb
 
 import numpy as np
@@ -46,6 +47,15 @@ POLES_WEIGHT = 2.0
 LONGEST_POLES = 1.5
 # How often is a point's nearest place on the cubics bettered? It starts within 1 % of the run's length.
 _FOOT_STEPS = 2
+
+
+@cache
+def _trials(degree: int) -> tuple[FloatArray, FloatArray]:
+    """Shares of a run where it is held to its cubics, and Bernstein's polynomials there."""
+    count = POINTS_A_POLE * degree
+    # Dense at the ends, as polynomials of a high degree want it.
+    places = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
+    return places, _bernstein(degree, places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,21 +144,16 @@ def _fitted(part: _Measured, tolerance_mm: float) -> BSpline | None:
     length = float(ends[-1])
     everywhere = ((part.upto[:, 1:-1] + ends[:-1, None]) / length).ravel()
     for degree in DEGREES:
-        count = POINTS_A_POLE * degree
-        # Dense at the ends, as polynomials of a high degree want it.
-        chosen = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
-        poles = _least_squares(part, ends, degree, chosen, POLES_WEIGHT * tolerance_mm)
+        poles = _least_squares(part, ends, degree, POLES_WEIGHT * tolerance_mm)
         if not _is_tame(part, poles, length):
             continue
-        places = np.sort(np.concatenate([chosen, everywhere]))
+        places = np.sort(np.concatenate([_trials(degree)[0], everywhere]))
         if _error(part, ends, poles, places) <= tolerance_mm:
             return BSpline(degree, poles, np.repeat([0.0, length], degree + 1))
     return None
 
 
-def _least_squares(
-    part: _Measured, ends: FloatArray, degree: int, places: FloatArray, evenness: float
-) -> FloatArray:
+def _least_squares(part: _Measured, ends: FloatArray, degree: int, evenness: float) -> FloatArray:
     """Poles (degree + 1, 2) with the ends and end tangents of the cubics, nearest to them between.
 
     Unknown are the lengths of both handles and the poles between; what lies along the cubics counts
@@ -160,7 +165,7 @@ def _least_squares(
     poles[1] += handle * leaving
     poles[-2] -= handle * arriving
     poles[2:-2] = 0.0
-    basis = _bernstein(degree, places)
+    places, basis = _trials(degree)
     points, along = _at(part, ends, places)
     rest = points - basis @ poles
     rows, values = [], []

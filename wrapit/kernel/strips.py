@@ -12,6 +12,15 @@ from wrapit.geometry import FloatArray, IntArray
 _STRAIGHT = 1 - 1e-9
 
 
+def is_straight_across(face: Any) -> bool:
+    """Whether the face is flat, or swept along a straight line."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_Cylinder, GeomAbs_Plane, GeomAbs_SurfaceOfExtrusion
+
+    kind = BRepAdaptor_Surface(face, False).GetType()
+    return kind in (GeomAbs_Plane, GeomAbs_Cylinder, GeomAbs_SurfaceOfExtrusion)
+
+
 def strip_of(face: Any, mesh: Any, location: Any) -> IntArray | None:
     """Triangles (m, 3) of nodes of the kernel's mesh, as it turns them; None for any other face.
 

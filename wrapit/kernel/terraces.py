@@ -13,7 +13,7 @@ from typing import Any
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
-from wrapit.kernel.edges import followed_area_mm2, loop_edges, plane_face, turned, wire_of
+from wrapit.kernel.edges import Followed, edges_of, followed_loops, loop_edges, plane_face, turned, wire_of
 from wrapit.kernel.guard import REMEDY, guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
 from wrapit.kernel.plain import Plain
@@ -39,6 +39,27 @@ class Terrace:
     z_mm: float
     upon: tuple[Terrace, ...] = ()
     slack_mm: float = RUN_TOLERANCE_MM
+
+
+@dataclass(frozen=True, eq=False)
+class _Raised:
+    """A terrace whose outline, then its holes, are followed by few runs."""
+
+    terrace: Terrace
+    loops: list[Followed]
+    upon: list[_Raised]
+
+    @staticmethod
+    def of(terrace: Terrace) -> _Raised:
+        loops = followed_loops(terrace.region, terrace.slack_mm)
+        return _Raised(terrace, loops, [_Raised.of(each) for each in terrace.upon])
+
+    @property
+    def area_mm2(self) -> float:
+        """What its sides should enclose: the outline, or where they may leave it their curves' own area."""
+        if self.terrace.slack_mm <= RUN_TOLERANCE_MM:
+            return region_area_mm2(self.terrace.region)
+        return sum(loop.area_mm2 for loop in self.loops)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,8 +113,9 @@ def _proven(
     where: str,
 ) -> Terraced:
     with guarded("building the solid", where):
-        solid = _solid(outline, bottom_mm, top_mm, terraces, through)
-        expected = terraced_volume_mm3(outline, bottom_mm, top_mm, terraces, through)
+        raised = [_Raised.of(terrace) for terrace in terraces]
+        solid = _solid(outline, bottom_mm, top_mm, raised, through)
+        expected = _expected_mm3(outline, bottom_mm, top_mm, raised, through)
         got = volume_mm3(solid)
         if got < 0:  # the shell came out facing inwards
             solid, got = solid.Reversed(), -got
@@ -104,33 +126,23 @@ def _proven(
     return Terraced(solid, got)
 
 
-def terraced_volume_mm3(
-    outline: Loop,
-    bottom_mm: float,
-    top_mm: float,
-    terraces: Sequence[Terrace],
-    through: Sequence[Loop],
+def _expected_mm3(
+    outline: Loop, bottom_mm: float, top_mm: float, raised: Sequence[_Raised], through: Sequence[Loop]
 ) -> float:
     """The volume by exact areas and heights."""
     area = abs(loop_area_mm2(outline)) - sum(abs(loop_area_mm2(hole)) for hole in through)
-    return area * (top_mm - bottom_mm) + _raised_mm3(terraces, top_mm)
+    return area * (top_mm - bottom_mm) + _raised_mm3(raised, top_mm)
 
 
-def _raised_mm3(terraces: Sequence[Terrace], ground_mm: float) -> float:
+def _raised_mm3(raised: Sequence[_Raised], ground_mm: float) -> float:
     return sum(
-        _area_mm2(each) * (each.z_mm - ground_mm) + _raised_mm3(each.upon, each.z_mm) for each in terraces
+        each.area_mm2 * (each.terrace.z_mm - ground_mm) + _raised_mm3(each.upon, each.terrace.z_mm)
+        for each in raised
     )
 
 
-def _area_mm2(terrace: Terrace) -> float:
-    """The area that its sides should enclose: the outline's, or where they may leave it their curves' own."""
-    if terrace.slack_mm <= RUN_TOLERANCE_MM:
-        return region_area_mm2(terrace.region)
-    return followed_area_mm2(terrace.region, terrace.slack_mm)
-
-
 def _solid(
-    outline: Loop, bottom: float, top: float, terraces: Sequence[Terrace], through: Sequence[Loop]
+    outline: Loop, bottom: float, top: float, raised: Sequence[_Raised], through: Sequence[Loop]
 ) -> Any:
     rim = turned(outline, counter_clockwise=True)
     floor_rim = wire_of(loop_edges(rim, bottom))
@@ -143,31 +155,31 @@ def _solid(
         drains.append(floor_hole)
         voids.append((hole, top_hole))
     faces.append(plane_face(floor_rim, drains, bottom).Reversed())
-    faces += _tier((outline, top_rim), voids, top, terraces)
+    faces += _tier((outline, top_rim), voids, top, raised)
     return _closed(faces)
 
 
 def _tier(
-    shore: tuple[Loop, Any], voids: list[tuple[Loop, Any]], z: float, terraces: Sequence[Terrace]
+    shore: tuple[Loop, Any], voids: list[tuple[Loop, Any]], z: float, raised: Sequence[_Raised]
 ) -> list[Any]:
     """The faces from one level up: its ground between shore and voids, and everything that stands on it."""
     faces: list[Any] = []
     islands = [shore]
-    for terrace in terraces:
-        outer = turned(terrace.region.outer, counter_clockwise=True)
-        foot = wire_of(loop_edges(outer, z, terrace.slack_mm))
-        sides, head = _upright(foot, terrace.z_mm - z)
+    for each in raised:
+        outer, *inners = each.loops
+        level = each.terrace.z_mm
+        foot = wire_of(edges_of(outer, z))
+        sides, head = _upright(foot, level - z)
         faces += sides
-        voids.append((outer, foot.Reversed()))
+        voids.append((outer.loop, foot.Reversed()))
         wells = []
-        for hole in terrace.region.holes:
-            inner = turned(hole, counter_clockwise=False)
-            inner_foot = wire_of(loop_edges(inner, z, terrace.slack_mm))
-            sides, inner_head = _upright(inner_foot, terrace.z_mm - z)
+        for inner in inners:
+            inner_foot = wire_of(edges_of(inner, z))
+            sides, inner_head = _upright(inner_foot, level - z)
             faces += sides
-            wells.append((inner, inner_head))
-            islands.append((inner, inner_foot.Reversed()))
-        faces += _tier((outer, head), wells, terrace.z_mm, terrace.upon)
+            wells.append((inner.loop, inner_head))
+            islands.append((inner.loop, inner_foot.Reversed()))
+        faces += _tier((outer.loop, head), wells, level, each.upon)
     return faces + _ground(islands, voids, z)
 
 

@@ -49,7 +49,7 @@ def judged_solids(
 
 def _write(made: Made, config: Config, folder: Path, suffix: str) -> Frames:
     """Writes the files; what was added to the piece's coordinates in each."""
-    from wrapit.kernel.files import FilePart, write_3mf, write_step, write_stl
+    from wrapit.kernel.files import FilePart, write_printable, write_step
     from wrapit.kernel.measures import box_mm
     from wrapit.kernel.objects import moved
 
@@ -71,12 +71,10 @@ def _write(made: Made, config: Config, folder: Path, suffix: str) -> Frames:
             frames[f"{stem}.step"] = [0.0, 0.0, 0.0]
         to_origin = at_origin(low)
         printed = moved(part, to_origin)
-        if "stl" in config.outputs:
-            write_stl(folder / f"{stem}.stl", [printed.solid], config.jig.stl_tolerance)
-            frames[f"{stem}.stl"] = list(to_origin)
-        if "3mf" in config.outputs:
-            write_3mf(folder / f"{stem}.3mf", [printed])
-            frames[f"{stem}.3mf"] = list(to_origin)
+        stl = folder / f"{stem}.stl" if "stl" in config.outputs else None
+        three_mf = folder / f"{stem}.3mf" if "3mf" in config.outputs else None
+        write_printable(printed, stl, three_mf, config.jig.stl_tolerance)
+        frames |= {path.name: list(to_origin) for path in (stl, three_mf) if path is not None}
     return frames
 
 

@@ -13,7 +13,7 @@ from wrapit.jig.printed.labels import wire_labels
 from wrapit.jig.printed.plate import plate_outline
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
-from wrapit.jig.walls_and_pins import plan_walls
+from wrapit.jig.walls_and_pins import plan_walls, standing_walls
 from wrapit.wires.model import Wire
 
 # Plate between a number's frame (which has its own gap) and walls, holes and screws.
@@ -30,10 +30,11 @@ def plan_jig(
     """
     import shapely
 
-    channels = Channels.of(wires, config)
+    standing = None if config.seats else standing_walls(wires, config)
+    channels = Channels.of(wires, config) if standing is None else standing.channels
     seats = seats_of(config, channels.diameter_mm)
     pockets = seat_obstacles(seats)
-    planned = plan_walls(channels, config, pockets)
+    planned = plan_walls(channels, config, pockets) if standing is None else standing.plan
     holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
     check_holes(seats, rims)
     heights = wall_heights(channels, [polygon for polygon, _ in planned.polygons], config)

@@ -15,6 +15,7 @@ from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.seats import check_seats, seats_near
 from wrapit.jig.support import support_by_wire, turn_support, with_pins
 from wrapit.jig.wall_face import Face, plain_finding, wall_face
+from wrapit.jig.walls_and_pins import standing_walls
 from wrapit.wires.model import Wire
 
 
@@ -91,8 +92,11 @@ def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
 
 
 def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> PlannedJig:
-    channels = Channels.of(wires, config)
     plan, findings = plan_jig(wires, config, name)
+    if not config.seats:
+        standing = standing_walls(wires, config)
+        return PlannedJig(standing.channels, plan, standing.faces, standing.support, findings)
+    channels = Channels.of(wires, config)
     faces = tuple(wall_face(channels, wall) for wall in plan.walls)
     support = turn_support(channels, [face.region for face in faces])
     return PlannedJig(channels, plan, faces, support, findings)

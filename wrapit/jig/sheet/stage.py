@@ -24,7 +24,7 @@ from wrapit.jig.sheet.shops import check_shop
 from wrapit.jig.support import refuse_unheld, support_by_wire, turn_support, with_pins
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.wall_ground import wall_polygons
-from wrapit.jig.walls_and_pins import plan_walls
+from wrapit.jig.walls_and_pins import standing_walls
 from wrapit.wires.model import Turn, Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate: the narrowest web of most pieces
@@ -115,12 +115,7 @@ class _Grouped:
 
     @staticmethod
     def of(wires: tuple[Wire, ...], name: str, config: JigConfig) -> _Grouped:
-        import shapely
-
-        channels = Channels.of(wires, config)
-        walls = plan_walls(channels, config, shapely.Polygon()).polygons
-        faces = [wall_face(channels, Wall(turns, polygon, 0.0)).region for polygon, turns in walls]
-        return _Grouped(name, wires, support_by_wire(turn_support(channels, faces)))
+        return _Grouped(name, wires, support_by_wire(standing_walls(wires, config).support))
 
 
 @dataclass(frozen=True, eq=False)
