@@ -19,7 +19,7 @@ from wrapit.kernel.objects import (
     cadquery_workplane,
     moved,
 )
-from wrapit.kernel.sweeps import round_wire
+from wrapit.kernel.round_wires.sweeps import round_wire
 from wrapit.wires.model import Wire
 
 

@@ -20,7 +20,7 @@ from wrapit.jig.printed.stage import build_jig
 from wrapit.kernel.files import write_3mf, write_printable, write_step, write_stl
 from wrapit.kernel.measures import volume_mm3
 from wrapit.kernel.objects import FilePart
-from wrapit.kernel.sweeps import round_wire
+from wrapit.kernel.round_wires.sweeps import round_wire
 from wrapit.kernel.terraces import terraced_solid
 
 COPPER, GREY = "#b87333", "#c8ccd4"

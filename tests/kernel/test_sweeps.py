@@ -10,9 +10,9 @@ import pytest
 from tests.jig.metal import arcs, circle, line, scribble, wires_of
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
-from wrapit.kernel.heights import HEIGHT_TOLERANCE_MM, smooth_heights
 from wrapit.kernel.measures import is_valid, size_mm, volume_mm3
-from wrapit.kernel.sweeps import round_wire, torus
+from wrapit.kernel.round_wires.heights import HEIGHT_TOLERANCE_MM, smooth_heights
+from wrapit.kernel.round_wires.sweeps import round_wire, torus
 
 D = 1.0237
 AREA = math.pi / 4 * D**2

@@ -107,7 +107,7 @@ def write_wires(wires: Wires, ring: JumpRing | None, config: Config, path: Path)
     """
     from wrapit.kernel.files import FilePart, write_step
     from wrapit.kernel.objects import moved
-    from wrapit.kernel.sweeps import round_wire
+    from wrapit.kernel.round_wires.sweeps import round_wire
 
     made = [(w, round_wire(w.centreline, w.diameter_mm, w.lifts, w.name)) for w in wires]
     parts = [FilePart(w.name, m.solid, w.colour, (m.centreline,)) for w, m in made]
@@ -129,7 +129,7 @@ def write_wires(wires: Wires, ring: JumpRing | None, config: Config, path: Path)
 
 
 def _ring_solid(ring: JumpRing) -> Any:
-    from wrapit.kernel.sweeps import torus
+    from wrapit.kernel.round_wires.sweeps import torus
 
     u, v = ring.outward
     return torus(ring.centre, (-v, u, 0.0), ring.radius_mm, ring.diameter_mm / 2, "jump-ring")

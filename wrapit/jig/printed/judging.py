@@ -62,7 +62,7 @@ def _common_mm3(jig: object, wire: Wire, base_mm: float) -> float | None:
     """What jig and wire share; None where the wire has no sound solid."""
     from wrapit.kernel.interference import common_mm3
     from wrapit.kernel.objects import FilePart, moved
-    from wrapit.kernel.sweeps import round_wire
+    from wrapit.kernel.round_wires.sweeps import round_wire
 
     solid = round_wire(wire.centreline, wire.diameter_mm, wire.lifts, wire.name).solid
     if solid is None:

@@ -15,8 +15,8 @@ from wrapit.errors import KernelError
 from wrapit.geometry import BSpline
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
-from wrapit.kernel.skins import capped, skin
-from wrapit.kernel.spines import Spine
+from wrapit.kernel.round_wires.skins import capped, skin
+from wrapit.kernel.round_wires.spines import Spine
 
 # By how much may a wire's volume differ from section times length? Sixteen sound wires differ by
 # up to 6e-5; a bend tighter than the wire is thick came out with the sign reversed.

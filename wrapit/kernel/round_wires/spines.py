@@ -12,7 +12,7 @@ import numpy as np
 
 from wrapit.geometry import BSpline, FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
-from wrapit.kernel.heights import smooth_heights
+from wrapit.kernel.round_wires.heights import smooth_heights
 
 # How far may a wire turn between two circles of its skin? Over 37 wires the volume errs by 1.6e-4 at most at
 # 0.25 and by 2.7e-4 at 0.5; less makes no difference.

@@ -10,7 +10,7 @@ import numpy as np
 
 from wrapit.errors import KernelError
 from wrapit.geometry import FloatArray, unit
-from wrapit.kernel.spines import Spine
+from wrapit.kernel.round_wires.spines import Spine
 
 # Where do faces end? At a jump of curvature that no smooth surface follows, after so many spans, or where
 # two spans differ so much in length: programs integrate volumes over a face with few points. Over 37 wires

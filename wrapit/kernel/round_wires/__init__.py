@@ -1,0 +1,1 @@
+"""Round wires: centrelines with heights, and their skins."""
