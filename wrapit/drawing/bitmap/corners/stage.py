@@ -39,11 +39,11 @@ def _split(
     graph: StrandGraph, lines: dict[int, Line], strand: int, corners: list[Corner], corner_rad: float
 ) -> None:
     s, line = graph.strands[strand], lines[strand]
-    parts: list[tuple[list[slice | FloatArray], FloatArray]] = []
-    stretch: list[slice | FloatArray] = []
+    parts: list[tuple[list[slice | FloatArray | Line], FloatArray]] = []
+    stretch: list[slice | FloatArray | Line] = []
     start = 0
     for corner in corners:
-        stretch.append(slice(start, corner.before))
+        stretch.append(corner.side or slice(start, corner.before))
         start = corner.after
         if corner.sharp and corner.turn_rad >= corner_rad:
             parts.append((stretch, corner.points[0]))
@@ -66,14 +66,18 @@ def _split(
     graph.drop_lonely()
 
 
-def _joined(line: Line, items: list[slice | FloatArray]) -> Line:
-    """A line from stretches of another, with the points of gentle corners between them."""
+def _joined(line: Line, items: list[slice | FloatArray | Line]) -> Line:
+    """A line from stretches of another and sides drawn anew, with the points of gentle corners between."""
     points, width, clean = [], [], []
     for item in items:
         if isinstance(item, slice):
             points.append(line.points[item])
             width.append(line.width[item])
             clean.append(line.clean[item])
+        elif isinstance(item, Line):
+            points.append(item.points)
+            width.append(item.width)
+            clean.append(item.clean)
         else:
             points.append(item)
             width.append(np.full(len(item), np.nan))

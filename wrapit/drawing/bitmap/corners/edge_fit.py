@@ -1,0 +1,181 @@
+"""Corners with short sides between them: the chain of straight sides whose ink has the edges that are seen.
+
+The middle between both edges tells a corner only where a clean side follows on it. Of two corners a width
+apart it shows a wiggle; but each of the two edges shows both of them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.geometry import FloatArray, unit
+
+# The numbers were measured on 200 chains of 2 to 4 corners, 60 to 150 degrees, with sides of 1 to 3 widths,
+# 4 to 30 px wide, two in five with hard edges, of which 123 come out right.
+# When has a fit settled? Where a round gains less, in stroke widths: a fiftieth of what edges are off by. Not
+# varied alone; 12 rounds and a quarter of that gain, find one in a hundred more.
+_ROUNDS = 8
+_SETTLED = 0.0004
+# How far off is a point that belongs to other ink? In stroke widths; 0.18 and 0.33 do as well.
+_OUTLIER = 0.25
+# How many corners has a chain, and when does one more help? Where it or the next one lessens the misfit by a
+# fourteenth. With a half instead, 109 chains come out right.
+_MOST = 8
+_GAIN = 0.93
+# What does a pen draw? No side shorter than this, in stroke widths (0.9 does as well), no corner where
+# the chain starts, and none that folds back: that is a tip.
+_SHORTEST = 0.7
+_LEAST_END = 0.3
+_SHARPEST_RAD = math.radians(152)
+
+
+@dataclass(frozen=True, eq=False)
+class Missed:
+    """How far points (n,) of the ink's edges lie outside of the ink of a chain, in stroke widths.
+
+    `side` (n,) is the nearest side, `share` (n,) how far along it its nearest point is, `away` (n, 2) the
+    direction from there.
+    """
+
+    outside: FloatArray
+    side: NDArray[np.intp]
+    share: FloatArray
+    away: FloatArray
+
+    @property
+    def rms(self) -> float:
+        """Root mean square, with outliers (other ink) bounded."""
+        return float(np.sqrt(np.mean(np.clip(self.outside, -_OUTLIER, _OUTLIER) ** 2)))
+
+
+def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
+    """What points `edge` (n, 2) of the ink's edges say of a chain (m, 2): all should be half a width away.
+
+    Outside of a corner anything between a bevel and a mitre is right.
+    """
+    start, course = chain[:-1], np.diff(chain, axis=0)
+    squared = np.maximum((course**2).sum(axis=1), 1e-9)
+    from_start = edge[:, None] - start
+    share = np.clip((from_start * course).sum(axis=2) / squared, 0.0, 1.0)
+    gap = from_start - share[:, :, None] * course
+    distance = np.sqrt((gap**2).sum(axis=2))
+    rows = np.arange(len(edge))
+    side = np.argmin(distance, axis=1)
+    share, gap, distance = share[rows, side], gap[rows, side], distance[rows, side]
+    outside = distance / width_px - 0.5
+    corner = side + (share >= 1.0)
+    at_corner = ((share <= 0.0) | (share >= 1.0)) & (corner > 0) & (corner < len(chain) - 1)
+    if at_corner.any():
+        outside[at_corner] = _beside_corner(
+            unit(course), corner[at_corner], gap[at_corner], distance[at_corner] / width_px
+        )
+    return Missed(outside, side, share, gap / np.maximum(distance, 1e-9)[:, None])
+
+
+def _beside_corner(
+    courses: FloatArray, corner: NDArray[np.intp], gap: FloatArray, distance: FloatArray
+) -> FloatArray:
+    before, after = courses[corner - 1], courses[corner]
+    outwards = before - after
+    half_turn = np.arccos(np.clip((before * after).sum(axis=1), -1, 1)) / 2
+    norm = np.maximum(np.linalg.norm(outwards, axis=1) * np.linalg.norm(gap, axis=1), 1e-9)
+    aside = np.arccos(np.clip((gap * outwards).sum(axis=1) / norm, -1, 1))
+    bevel = 0.5 * np.cos(half_turn) / np.maximum(np.cos(aside), 0.1)
+    mitre = 0.5 / np.maximum(np.cos(half_turn - aside), 0.1)
+    return distance - np.clip(distance, np.minimum(bevel, 0.5), np.maximum(mitre, 0.5))
+
+
+def fitted(chain: FloatArray, edge: FloatArray, width_px: float) -> tuple[FloatArray, Missed]:
+    """The chain with its inner corners moved so that its ink's edges fit best (Gauss and Newton's method)."""
+    chain = chain.copy()
+    seen = missed(chain, edge, width_px)
+    damping = 1e-3
+    for _ in range(_ROUNDS):
+        step = _step(chain, seen, width_px, damping)
+        moved = chain.copy()
+        moved[1:-1] += step
+        new = missed(moved, edge, width_px)
+        if new.rms >= seen.rms:
+            damping *= 10
+            if damping > 10:
+                break
+            continue
+        gained = seen.rms - new.rms
+        chain, seen, damping = moved, new, max(damping / 10, 1e-4)
+        if gained < _SETTLED:
+            break
+    return chain, seen
+
+
+def _step(chain: FloatArray, seen: Missed, width_px: float, damping: float) -> FloatArray:
+    count = len(chain)
+    rows = np.arange(len(seen.side))
+    slope = np.zeros((len(rows), count, 2))
+    slope[rows, seen.side] = -seen.away * (1 - seen.share)[:, None]
+    slope[rows, seen.side + 1] += -seen.away * seen.share[:, None]
+    weight = np.abs(seen.outside) < _OUTLIER
+    used = slope[weight][:, 1:-1].reshape(weight.sum(), -1)
+    normal = used.T @ used
+    scale = damping * (np.trace(normal) / len(normal) + 1e-9)
+    right = used.T @ (seen.outside[weight] * width_px)
+    step = -np.linalg.solve(normal + scale * np.eye(len(normal)), right).reshape(-1, 2)
+    longest = float(np.linalg.norm(step, axis=1).max())
+    return step * min(1.0, 0.3 * width_px / max(longest, 1e-9))
+
+
+def turns(chain: FloatArray) -> FloatArray:
+    """The turn (m - 2,) at each inner corner of a chain, in radians."""
+    courses = unit(np.diff(chain, axis=0))
+    return np.asarray(np.arccos(np.clip((courses[1:] * courses[:-1]).sum(axis=1), -1, 1)))
+
+
+def chain_of(middle: FloatArray, edge: FloatArray, width_px: float, good: float) -> FloatArray | None:
+    """The chain with the fewest corners that fits the edges, from end to end of a middle line.
+
+    Corners are added one at a time, where the middle line is farthest from the chain. None where the edges
+    are missed by more than `good` (in stroke widths), however many there are.
+    """
+    rough = chain = middle[[0, -1]]
+    best, stalled = np.inf, 0
+    for _ in range(_MOST):
+        rough, added = (_with_farthest(start, middle, width_px) for start in (rough, chain))
+        chain, seen = fitted(rough, edge, width_px)
+        if seen.rms >= good and not np.array_equal(rough, added):
+            other, other_seen = fitted(added, edge, width_px)
+            if other_seen.rms < seen.rms:
+                chain, seen = other, other_seen
+        if seen.rms < good:
+            return _pruned(chain, edge, width_px, good)
+        stalled = 0 if seen.rms < _GAIN * best else stalled + 1
+        if stalled > 1:
+            return None
+        best = min(best, seen.rms)
+    return None
+
+
+def _with_farthest(chain: FloatArray, middle: FloatArray, width_px: float) -> FloatArray:
+    far = missed(chain, middle, width_px)
+    add = 1 + int(np.argmax(far.outside[1:-1]))
+    return np.insert(chain, int(far.side[add]) + 1, middle[add], axis=0)
+
+
+def _pruned(chain: FloatArray, edge: FloatArray, width_px: float, good: float) -> FloatArray | None:
+    """The chain without corners that it can do without; None if what remains is none that a pen draws."""
+    while len(chain) > 3:
+        fewer = [fitted(np.delete(chain, k, axis=0), edge, width_px) for k in range(1, len(chain) - 1)]
+        best, seen = min(fewer, key=lambda one: one[1].rms)
+        if seen.rms > good:
+            break
+        chain = best
+    return chain if _plausible(chain, width_px) else None
+
+
+def _plausible(chain: FloatArray, width_px: float) -> bool:
+    """Whether no side is shorter than a pen shows and no corner folds back on itself."""
+    sides = np.linalg.norm(np.diff(chain, axis=0), axis=1) / width_px
+    long = (sides[1:-1] > _SHORTEST).all() and sides[[0, -1]].min() > _LEAST_END
+    return bool(long and (turns(chain) < _SHARPEST_RAD).all())

@@ -1,0 +1,68 @@
+"""Where a line turns: how much at each point, where most, and where it does so without a pause."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.geometry import FloatArray
+
+# In stroke widths.
+# Between which points is turning looked for? From 0.8 to 1.7 on either side: the chord over a width.
+_NEAR = 0.8
+_PROBE = 1.7
+# How near to the end of a line? There are no sides within a width and a quarter.
+_MARGIN = 1.25
+# What turn is worth a look? Less is the hand's; the config's own `corner_angle` is 60 degrees. 20 or 36
+# change the Béziers by two in 242.
+SEEN_RAD = math.radians(28)
+
+
+def turning(line: Line, width_px: float, first: int, last: int) -> FloatArray:
+    """How much the line turns at each of its points, in radians; nothing near the ends of a stretch."""
+    # The points are evenly spaced, so lengths are counts.
+    along = line.along
+    step = max(line.length / (len(along) - 1), 1e-6)
+    near, far = max(1, round(_NEAR * width_px / step)), max(2, round(_PROBE * width_px / step))
+    margin = _MARGIN * width_px
+    turn = np.zeros(len(along))
+    inner = np.flatnonzero((along >= along[first] + margin) & (along <= along[last] - margin))
+
+    def at(shift: int) -> FloatArray:
+        return line.points[np.clip(inner + shift, first, min(last, len(along) - 1))]
+
+    before, after = at(-near) - at(-far), at(far) - at(near)
+    turn[inner] = np.abs(
+        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
+    )
+    return turn
+
+
+def tops(line: Line, turn: FloatArray, width_px: float) -> NDArray[np.intp]:
+    """The points where the line turns most, and by enough to be worth a look."""
+    if turn.max() <= SEEN_RAD:
+        return np.zeros(0, dtype=np.intp)
+    reach = max(1, int(width_px * (len(turn) - 1) / max(line.length, 1e-6)))
+    peak = np.lib.stride_tricks.sliding_window_view(np.pad(turn, reach), 2 * reach + 1).max(axis=1)
+    return np.flatnonzero((turn == peak) & (turn > SEEN_RAD))
+
+
+def crowds(
+    line: Line, turn: FloatArray, tops: NDArray[np.intp], calm_rad: float, pause_px: float
+) -> list[tuple[int, int]]:
+    """First and last point of each stretch in which the line turns without a pause, and that has a top."""
+    restless = np.flatnonzero(turn >= calm_rad)
+    if not len(restless):
+        return []
+    parted = np.flatnonzero(np.diff(line.along[restless]) > pause_px)
+    starts = restless[np.concatenate([[0], parted + 1]).astype(np.intp)]
+    ends = restless[np.concatenate([parted, [len(restless) - 1]]).astype(np.intp)]
+    last = len(turn) - 1
+    return [
+        (max(int(start) - 1, 0), min(int(end) + 1, last))
+        for start, end in zip(starts, ends, strict=True)
+        if ((tops >= start) & (tops <= end)).any()
+    ]
