@@ -13,7 +13,7 @@ from ezdxf.math import bulge_to_arc
 from tests.jig.sheet.laser import JIG, PIECES, laser_of
 from wrapit.config import PlateConfig
 from wrapit.exports.flat_files import write_flat_files
-from wrapit.exports.short_spans import MERGED_MM
+from wrapit.exports.short_spans import MERGED_MM, SHORT_MM
 from wrapit.geometry import Arc, BezierChain, FloatArray, Line, Loop, Region
 from wrapit.geometry.bspline import BSpline, chain_of
 from wrapit.geometry.outlines.loops import moved
@@ -76,11 +76,11 @@ def test_walls_assembled_in_the_kernel_stand_at_radius_and_clearance(
             planned = next(contour for contour in placed.contours if contour.layer == "CUT_OUTER")
             read = min(cuts, key=lambda loop: apart(loop, Loop(planned.edges)))
             home = in_place(read, placed.quarters, placed.shift)
-            # Spans too short for a laser were joined to their neighbours, within MERGED_MM.
-            perimeter = polygon_of(Region(Loop(planned.edges)), 0.01).length
-            assert abs(loop_area_mm2(home)) == pytest.approx(
-                abs(loop_area_mm2(Loop(planned.edges))), abs=MERGED_MM * perimeter
-            )
+            # Spans too short for a laser are joined to their neighbours within MERGED_MM, some repeatedly;
+            # where they can't be, their corner moves by half of SHORT_MM at most.
+            wanted = polygon_of(Region(Loop(planned.edges)), 1e-3)
+            assert abs(loop_area_mm2(home)) == pytest.approx(wanted.area, abs=2 * MERGED_MM * wanted.length)
+            assert polygon_of(Region(read), 1e-3).hausdorff_distance(wanted) < SHORT_MM / 2 + MERGED_MM
             gaps += [gap_mm(home, chain) for chain in chains]
     reach = wires[0].diameter_mm / 2 + JIG.clearance
     assert min(gaps) == pytest.approx(reach - kerf_mm / 2, abs=0.01)
