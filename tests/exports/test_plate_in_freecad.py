@@ -43,8 +43,9 @@ def test_freecad_finds_the_same_loops(
     assert (tmp_path / "seen.json").is_file(), run.stdout + run.stderr
     seen = json.loads((tmp_path / "seen.json").read_text())
     assert seen["closed"] == [True] * len(cuts)
+    # Spans too short for a laser are joined to their neighbours, within a thousandth of a mm.
     assert seen["lengths"] == pytest.approx(
-        sorted(map(length_mm, cuts)), rel=1e-3 if curves == "arc" else 1e-6
+        sorted(map(length_mm, cuts)), rel=1e-3 if curves == "arc" else 1e-5
     )
     areas = sorted(Polygon(Loop(cut.edges).sampled(1e-4)).area for cut in cuts)
     assert seen["areas"] == pytest.approx(areas, rel=1e-3)

@@ -39,12 +39,14 @@ for name, write in writers.items():
     write(whole / name)
     data = (whole / name).read_bytes()
     pages = -(-len(data) // 4096)
-    for size in sorted({1, 2, pages // 2, pages - 2, pages - 1, pages, pages + 1} - {0, -1}):
+    # The kernel's own text of a STEP file is larger: it says the same things again and again.
+    enough = 3 * pages if name == "a.step" else pages
+    for size in sorted({1, 2, pages // 2, pages - 2, pages - 1, pages, enough, enough + 1} - {0, -1}):
         subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={4 * size}k", "tmpfs", disk], check=True)
         try:
             write(disk / name)
         except Exception as error:
-            print(name, size, "of", pages, "refused" if size < pages else f"REFUSED: {error}")
+            print(name, size, "of", pages, "refused" if size < enough else f"REFUSED: {error}")
         else:
             right = size >= pages and (disk / name).read_bytes() == data
             print(name, size, "of", pages, "whole" if right else "CUT OFF")
@@ -60,7 +62,7 @@ def _mounting() -> None:
 
 @pytest.fixture
 def on_disk(tmp_path: Path) -> Callable[..., Run]:
-    """Builds a piece of 1.9 MB (STEP files of 0.5 and 0.35, an STL of 0.95) into a disk of so many kB."""
+    """Builds a piece of 0.6 MB (two STEP files of 0.1, an STL of 0.3) into a disk of so many kB."""
     config = written_piece(tmp_path, outputs=["step", "stl"])
     disk = tmp_path / "disk"
     disk.mkdir()
@@ -73,7 +75,7 @@ def on_disk(tmp_path: Path) -> Callable[..., Run]:
     return run
 
 
-@pytest.mark.parametrize("kilobytes", [8, 300, 700, 1200, 1840])
+@pytest.mark.parametrize("kilobytes", [8, 100, 240, 400, 560])
 def test_a_full_disk_is_one_line_and_leaves_nothing(
     tmp_path: Path, on_disk: Callable[..., Run], kilobytes: int
 ) -> None:
@@ -84,10 +86,10 @@ def test_a_full_disk_is_one_line_and_leaves_nothing(
 
 
 def test_a_disk_may_be_the_folder_itself(tmp_path: Path, on_disk: Callable[..., Run]) -> None:
-    run = on_disk(2600, tmp_path / "disk")
+    run = on_disk(1600, tmp_path / "disk")
     assert (run.returncode, run.stderr) == (0, "")
     assert {"jig.step", "jig.stl", "wires.step", "report.json"} <= set(run.stdout.splitlines())
-    refused(on_disk(300, tmp_path / "disk"), 1, "o space left on device", REMEDY)
+    refused(on_disk(100, tmp_path / "disk"), 1, "o space left on device", REMEDY)
 
 
 def test_a_file_of_the_kernel_is_whole_or_refused(tmp_path: Path) -> None:
