@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, rim_of
+from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, depth, rim_of
 
 # What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow
 # that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
@@ -36,9 +36,11 @@ _SHADE = 2
 
 
 # How long is an edge of light that would be read as a line, in shares of the longer side? On 140 pictures of
-# drawings no step is longer than .2 but those of tables and mats. And how dark is a shadow at most? What is
-# darker than this share of the paper beside it is ink.
+# drawings no step is longer than .2 but those of tables and mats. What stays so near to the picture's sides,
+# in shares of the shorter one, is what is left of a table. And how dark is a shadow at most? What is darker
+# than this share of the paper beside it is ink.
 _EDGE = 0.2
+_ALONG_SIDE = 0.08
 _SHADOW = 0.4
 
 
@@ -86,12 +88,13 @@ def edge_of_light(cells: Cells) -> BoolCells:
     if not steps.any():
         return steps
     labels, _ = label(steps, np.ones((3, 3)))
-    drop = _steps(cells, 2 * _BESIDE + 1)
+    drop, away = _steps(cells, 2 * _BESIDE + 1), depth(steps.shape)
     found = np.zeros_like(steps)
     for number, box in enumerate(find_objects(labels), 1):
         piece = labels[box] == number
         long = max(piece.shape) > _EDGE * max(steps.shape)
-        if long and float(np.median(drop[box][piece])) < -np.log(_SHADOW):
+        deep = int(away[box][piece].max()) > _ALONG_SIDE * min(steps.shape)
+        if long and deep and float(np.median(drop[box][piece])) < -np.log(_SHADOW):
             found[box] |= piece
     return found
 
