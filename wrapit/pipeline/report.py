@@ -130,9 +130,5 @@ def to_json(document: dict[str, Any]) -> str:
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _optional_mm(value: float | None) -> float | None:
-    return None if value is None else _mm(value)
-
-
 def _mm(value: float) -> float:
     return round(float(value), 4)

@@ -98,15 +98,6 @@ def number(text: str | None) -> float | None:
     return float(found[1]) / (100 if found[2] else 1)
 
 
-def leading_numbers(text: str) -> list[tuple[float, str]]:
-    """Numbers with their units from the beginning of a text, up to what is none."""
-    found, at = [], 0
-    while match := _SEVERAL.match(text, at):
-        found.append((float(match[1]), match[2]))
-        at = match.end()
-    return found
-
-
 def numbers(text: str) -> list[tuple[float, str]] | None:
     """All numbers of a list with their units; None where something else is in it."""
     found, at = [], 0
