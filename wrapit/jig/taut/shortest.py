@@ -1,0 +1,93 @@
+"""The taut wire: the shortest path that goes round the obstacles the same way as the drawn one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from wrapit.geometry import FloatArray
+from wrapit.jig.taut.belt import belt
+from wrapit.jig.taut.funnel import Bend, shortest
+from wrapit.jig.taut.sleeve import Walker, cyclic
+from wrapit.jig.taut.triangles import OUTSIDE, Triangles
+
+# Where a drawn path runs into an obstacle, or along its side, this much on both sides of the path is free all
+# the same: sampling takes paths up to 0.05 mm into walls. A hundred times less than a wire follows its jig by.
+HAIR_MM = 1e-3
+# Points of a path are moved by this much, each in its own direction, so that none lies on a triangle's side and no
+# stretch along one: a ten-thousandth of the hair, a million times what doubles lose at 100 mm.
+JOG_MM = 1e-7
+# Each is turned by the golden angle from the one before, so that neighbours never move alike.
+JOG_TURN_RAD = np.pi * (3 - np.sqrt(5))
+# Ground around everything, as a share of its size and in mm: a taut wire never leaves the convex hull of obstacles
+# and path, so any will do; the triangles at the edge are the fatter for it.
+MARGIN = 0.25
+MARGIN_MM = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class FreeGround:
+    """The plane less the obstacles, cut into triangles once for all the paths that were given to `around`."""
+
+    triangles: Triangles
+    walker: Walker
+
+    @classmethod
+    def around(cls, obstacles: BaseGeometry, paths: Sequence[FloatArray]) -> FreeGround:
+        """`obstacles`: polygons, mm, already grown by the wire's radius.
+
+        They give way by a hair to `paths`, (n, 2) each.
+        """
+        hairs = shapely.buffer([_line(path) for path in paths], HAIR_MM, quad_segs=2)
+        everything = shapely.GeometryCollection([obstacles, *hairs])
+        x0, y0, x1, y1 = everything.bounds
+        margin = MARGIN * max(x1 - x0, y1 - y0) + MARGIN_MM
+        box = shapely.box(x0 - margin, y0 - margin, x1 + margin, y1 + margin)
+        solid = shapely.union_all(shapely.get_parts(obstacles))
+        shapely.prepare(solid)
+        free = box.difference(solid.difference(shapely.union_all(hairs[shapely.intersects(solid, hairs)])))
+        triangles = Triangles.of(free)
+        return cls(triangles, Walker.over(triangles))
+
+    def pulled(self, path: FloatArray, closed: bool = False) -> FloatArray:
+        """`path` (n, 2), pulled taut: the shortest path (m, 2) homotopic to it, in mm.
+
+        Its ends stay; every other point is a corner of an obstacle. Where `closed`, the path's end joins its start
+        (given twice or not) and nothing is held but by obstacles: the shortest loop, its last point the first again,
+        which is where it passes the path's own start; a single point (1, 2) if no obstacle holds it.
+
+        Raises `ValueError` where the path leaves the ground, which one that was given to `around` never does.
+        """
+        whole = np.asarray(path, dtype=float)
+        if closed and not np.array_equal(whole[0], whole[-1]):
+            whole = np.concatenate([whole, whole[:1]])
+        jogged = _jogged(whole, closed)
+        first = self.triangles.holding(jogged[0])
+        if first == OUTSIDE:
+            raise ValueError(f"the path starts outside of the free ground, at {whole[0]} mm")
+        passed = self.walker.walk(first, jogged)
+        if closed:
+            loop, _ = cyclic(passed)
+            return belt(self.walker, loop) if len(loop) > 1 else whole[:1]
+        (ax, ay), (bx, by) = whole[0].tolist(), whole[-1].tolist()
+        portals = self.walker.portals(passed)
+        bends = shortest(Bend(ax, ay), Bend(bx, by), portals, self.walker.xs, self.walker.ys)
+        return np.array([(bend.x, bend.y) for bend in bends])
+
+
+def _line(path: FloatArray) -> BaseGeometry:
+    """A path as a line, one that closes or not; of a single point too."""
+    return shapely.LineString(path) if len(path) > 1 else shapely.Point(path[0])
+
+
+def _jogged(path: FloatArray, closed: bool) -> FloatArray:
+    """The path with each point moved a little; a closed one ends where it starts."""
+    turned = JOG_TURN_RAD * np.arange(len(path))
+    moved = path + JOG_MM * np.column_stack([np.cos(turned), np.sin(turned)])
+    if closed:
+        moved[-1] = moved[0]
+    return moved
