@@ -81,7 +81,7 @@ def _slots(channels: Channels) -> list[Any]:
         cuts = np.linspace(0, len(points) - 1, pieces + 1).astype(int)
         for a, b in itertools.pairwise(cuts):
             slot = shapely.LineString(points[a : b + 1]).buffer(channels.reach_mm + 3e-4, quad_segs=32)
-            outliner = Outliner.of([chain], channels.reach_mm, 1.2e-3)
+            outliner = Outliner.of([chain], (channels.reach_mm,), 1.2e-3)
             faces.append(region_face(outliner.region(slot)))
     return faces
 

@@ -49,7 +49,7 @@ def test_a_stretch_needs_one_wall_and_is_no_turn() -> None:
     chains = [arcs((0, 0), 0, (9, 180), (60, 0))]
     wires, jig = wires_of(chains), only(chains)
     channels = Channels.of(wires, JigConfig())
-    stretch = next(turn for turn in wires[0].turns if turn.inside == "both")
+    stretch = next(turn for turn in wires[0].turns if turn.stretch)
     below = [wall for wall in jig.walls if polygon_of(wall, 0.01).bounds[1] < 18]
     assert len(below) < len(jig.walls)  # one wall stands above the stretch, outside the bend
     one_sided, bare = turn_support(channels, below), turn_support(channels, ())

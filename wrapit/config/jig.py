@@ -33,6 +33,19 @@ class SeatConfig(Block):
 class JigConfig(Block):
     """The printed jig (paper, section 5)."""
 
+    support: Literal["taut", "turns"] = "taut"
+    """Where walls stand.
+
+    `taut`: on the inside of turns, and wherever else a wire laid under tension would stray from the drawing.
+    `turns`: on the inside of turns and of long stretches (the paper's rule).
+    """
+
+    taut_tolerance: Annotated[float, length("0.05 mm", "5 mm", "0.35 mm")] = 0.35
+    """Where a wire laid under tension would stray further it gets another wall (`support: taut`)."""
+
+    room: Annotated[float, length("0 mm", "20 mm", "2 mm")] = 2.0
+    """Free ground for the fingers on the side of a wire that needs no wall (`support: taut`)."""
+
     turn_curvature: Annotated[float, curvature("0.001 /mm", "10 /mm", "0.08 /mm")] = 0.08
     """A wire needs a wall where it bends more sharply than this (0.08 /mm is a radius of 12.5 mm)."""
 
@@ -40,7 +53,7 @@ class JigConfig(Block):
     """Turns that bend the wire by less in total get no wall."""
 
     long_segment: Annotated[float, length("0.5 mm", "1000 mm", "20 mm")] = 20.0
-    """Straighter stretches longer than this get a wall too."""
+    """Straighter stretches longer than this get a wall too, on their inside (`support: turns`)."""
 
     split: Literal["auto", "single", "per-wire"] = "auto"
     """One jig for all wires, or several; auto splits where a single jig would hold a wire badly."""
@@ -61,7 +74,10 @@ class JigConfig(Block):
     """Thickness of the walls, where there is room for it."""
 
     clearance: Annotated[float, length("0 mm", "5 mm", "0.2 mm")] = 0.2
-    """Gap between wire and wall on each side."""
+    """Gap between a wire and a wall that it passes."""
+
+    inside_gap: Annotated[float, length("0 mm", "5 mm", "0.1 mm")] = 0.1
+    """Gap between a wire and the wall that it is wrapped on and lies on; never more than the clearance."""
 
     min_wall_width: Annotated[float, length("0.05 mm", "20 mm", "0.8 mm")] = 0.8
     """Thinner walls can't be printed and are dropped."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.bezier import evaluate
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
-from wrapit.wires.model import Turn, Wire
+from wrapit.wires.model import Side, Turn, Wire
 
 # How a polygon stands for a channel. Chords stray from the centreline by SAGITTA, the buffer's 32 segments a
 # quarter from its arcs by 0.71 mm · (1 − cos(π/128)) = 2.1e-4: a polygon PAD too wide holds the true channel
@@ -25,32 +25,34 @@ from wrapit.wires.model import Turn, Wire
 SAGITTA_MM = 1e-4
 CHANNEL_PAD_MM = 3e-4
 CHANNEL_SLACK_MM = 1.2e-3
-# On which sides of a wire a turn is held, as factors of the left normal; a long stretch has both.
-SIDES = {"left": (1.0,), "right": (-1.0,), "both": (1.0, -1.0)}
+# On which side of a wire a turn is held, as a factor of the left normal.
+SIDES: Final[dict[Side, float]] = {"left": 1.0, "right": -1.0}
 
 
 @dataclass(frozen=True, eq=False)
 class Channels:
     """What the wires that share one jig take up, each with its clearance.
 
+    On the side where a wall holds a wire, that lies on it: there `inside_gap_mm` is enough.
     All have one diameter; ValueError otherwise, or without any wire.
     """
 
     wires: tuple[Wire, ...]
     clearance_mm: float
+    inside_gap_mm: float
 
     def __post_init__(self) -> None:
         if len({wire.diameter_mm for wire in self.wires}) != 1:
             raise ValueError("a jig takes one or more wires of one diameter")
 
-    def __reduce__(self) -> tuple[type[Channels], tuple[tuple[Wire, ...], float]]:
+    def __reduce__(self) -> tuple[type[Channels], tuple[tuple[Wire, ...], float, float]]:
         """What another process gets: not what was measured here, which is many times as much."""
-        return Channels, (self.wires, self.clearance_mm)
+        return Channels, (self.wires, self.clearance_mm, self.inside_gap_mm)
 
     @staticmethod
     def of(wires: tuple[Wire, ...], config: JigConfig) -> Channels:
         """The wires' channels with the configured clearance."""
-        return Channels(wires, config.clearance)
+        return Channels(wires, config.clearance, min(config.inside_gap, config.clearance))
 
     @property
     def diameter_mm(self) -> float:
@@ -59,8 +61,13 @@ class Channels:
 
     @property
     def reach_mm(self) -> float:
-        """From a wire's centreline to the face of a wall that holds it."""
+        """From a wire's centreline to a wall that it only passes."""
         return self.diameter_mm / 2 + self.clearance_mm
+
+    @property
+    def face_mm(self) -> float:
+        """From a wire's centreline to the face of a wall that holds it."""
+        return self.diameter_mm / 2 + self.inside_gap_mm
 
     @cached_property
     def chains(self) -> tuple[BezierChain, ...]:
@@ -70,23 +77,39 @@ class Channels:
     @cached_property
     def outliner(self) -> Outliner:
         """Makes exact outlines of polygons that lie against the wires' channels."""
-        return Outliner.of(self.chains, self.reach_mm, CHANNEL_SLACK_MM)
+        return Outliner.of(self.chains, (self.face_mm, self.reach_mm), CHANNEL_SLACK_MM)
 
     @cached_property
     def area(self) -> Any:
         """Everything that a wire and its clearance take up, as shapely geometry, CHANNEL_PAD_MM too wide."""
         import shapely
 
-        lines = shapely.linestrings
-        parts = [lines(self._polyline(index)) for index in range(len(self.wires))]
-        return shapely.union_all(shapely.buffer(parts, self.reach_mm + CHANNEL_PAD_MM, quad_segs=32))
+        return shapely.union_all([self.around(index, self.reach_mm) for index in range(len(self.wires))])
+
+    def around(self, index: int, distance_mm: float) -> Any:
+        """Everything within a distance of wire `index`, as shapely geometry, CHANNEL_PAD_MM too wide."""
+        key = index, distance_mm
+        if key not in self._around:
+            self._around[key] = self.lines[index].buffer(distance_mm + CHANNEL_PAD_MM, quad_segs=32)
+        return self._around[key]
+
+    @cached_property
+    def _around(self) -> dict[tuple[int, float], Any]:
+        return {}
+
+    @cached_property
+    def lines(self) -> tuple[Any, ...]:
+        """The centrelines as shapely lines whose chords keep within SAGITTA_MM of them."""
+        import shapely
+
+        return tuple(shapely.LineString(self._polyline(index)) for index in range(len(self.wires)))
 
     def stations(self, turn: Turn, step_mm: float, extra_mm: float = 0.0) -> tuple[FloatArray, ...]:
         """Arc lengths (m,), points (m, 2), left normals (m, 2), curvatures (m,) along a turn.
 
         `extra_mm` prolongs the turn at both ends, as far as the wire goes.
         """
-        index = self._index[turn.wire]
+        index = self.index[turn.wire]
         length, spline = self._lengths[index], self.wires[index].centreline
         low, high = max(0.0, turn.start_mm - extra_mm), min(length.total_mm, turn.end_mm + extra_mm)
         at_mm = np.linspace(low, high, max(2, 1 + int(np.ceil((high - low) / step_mm))))
@@ -99,7 +122,8 @@ class Channels:
         return f"{turn.wire} at {(turn.start_mm + turn.end_mm) / 2:.0f} mm"
 
     @cached_property
-    def _index(self) -> dict[str, int]:
+    def index(self) -> dict[str, int]:
+        """Which wire has a name."""
         return {wire.name: index for index, wire in enumerate(self.wires)}
 
     @cached_property

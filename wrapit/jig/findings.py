@@ -33,7 +33,7 @@ def support_findings(
                     "bend the wire around the pin",
                 )
             )
-        elif one.share < WEAK and one.turn.inside == "both":
+        elif one.share < WEAK and one.turn.stretch:
             findings.append(
                 Finding(
                     "warning",

@@ -138,7 +138,7 @@ def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
     for shape in (*reaches, *tails):
         shapely.prepare(shape)
     for i, channels in enumerate(apart):
-        turns = [turn for turn in channels.wires[0].turns if turn.inside != "both"]
+        turns = [turn for turn in channels.wires[0].turns if not turn.stretch]
         if not turns:
             continue
         face, inside = (

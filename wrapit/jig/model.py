@@ -97,10 +97,7 @@ class JigPlan:
 
 @dataclass(frozen=True)
 class TurnSupport:
-    """Share of one turn's arc length that has wall at the right distance on the inside.
-
-    For a long stretch (`turn.inside` is "both"), on either side.
-    """
+    """Share of a turn's or long stretch's arc length that has wall at the right distance on the inside."""
 
     turn: Turn
     share: float

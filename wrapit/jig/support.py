@@ -12,7 +12,7 @@ from wrapit.config import JigConfig
 from wrapit.errors import UnheldError
 from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.channel import SIDES, Channels
+from wrapit.jig.channel import Channels
 from wrapit.jig.model import Pin, TurnSupport
 from wrapit.jig.wall_ground import FACE_STEP_MM, face_probes, inside
 
@@ -25,10 +25,7 @@ DISTANCE_STEP_MM = 0.03
 
 
 def turn_support(channels: Channels, walls: Sequence[Region]) -> tuple[TurnSupport, ...]:
-    """For each turn the share of its length that has wall at the right distance on the inside.
-
-    A long stretch has no inside; what counts there is wall at the right distance on either side.
-    """
+    """For each turn or long stretch the share of its length that has wall at the right distance inside."""
     import shapely
 
     tree = shapely.STRtree([polygon_of(wall, 1e-3) for wall in walls])
@@ -38,10 +35,9 @@ def turn_support(channels: Channels, walls: Sequence[Region]) -> tuple[TurnSuppo
             probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, PROBE_DEPTH_MM))
             hit = np.zeros(len(probes))
             hit[inside(tree, probes)[0]] = 1.0
-            held = hit.reshape(len(SIDES[turn.inside]), -1).max(axis=0)
-            ends = np.ones(len(held))
+            ends = np.ones(len(hit))
             ends[[0, -1]] = 0.5
-            shares.append(TurnSupport(turn, float((held * ends).sum() / ends.sum())))
+            shares.append(TurnSupport(turn, float((hit * ends).sum() / ends.sum())))
     return tuple(shares)
 
 
@@ -51,12 +47,12 @@ def total_support(support: Iterable[TurnSupport]) -> float:
     Long stretches are no turns: the hand doesn't bend the wire there. They are left out here, and
     `stretch_support` gives theirs. They are many times longer than the turns and would hide a bad one.
     """
-    return held_share(one for one in support if one.turn.inside != "both")
+    return held_share(one for one in support if not one.turn.stretch)
 
 
 def stretch_support(support: Iterable[TurnSupport]) -> float:
-    """The share of the length of all long stretches that has a wall on either side; 1 where there is none."""
-    return held_share(one for one in support if one.turn.inside == "both")
+    """The share of the length of all long stretches that has a wall; 1 where there is none."""
+    return held_share(one for one in support if one.turn.stretch)
 
 
 def with_pins(support: Iterable[TurnSupport], pins: Iterable[Pin]) -> tuple[TurnSupport, ...]:

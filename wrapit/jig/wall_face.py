@@ -41,7 +41,7 @@ def wall_face(channels: Channels, wall: Wall) -> Face:
     sampled = polygon_of(region, SAMPLE_MM)
     true = (
         gap is not None
-        and gap >= channels.clearance_mm - CLEARANCE_TOLERANCE_MM
+        and gap >= channels.inside_gap_mm - CLEARANCE_TOLERANCE_MM
         and sampled.is_valid
         and abs(region_area_mm2(region) - wall.outline.area) < AREA_PER_MM * wall.outline.length
     )

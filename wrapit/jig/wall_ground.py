@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.polyline import steps
 from wrapit.jig.channel import SIDES, Channels
+from wrapit.jig.passage import beside, passage, prolonged_mm
 from wrapit.wires.model import Turn
 
 # How finely ground is laid beside a turn: a station each STEP, or each FAN radians where the turn is tighter
@@ -28,6 +30,12 @@ LEAST_STEP_MM = 0.03
 # 11, at 0.35 mm they have 0.6 % less area. SIMPLER only saves corners (30 % up or down changes nothing).
 SMOOTHING_MM = 0.5
 SIMPLER_MM = 5e-4
+# With free ground round the wires: how thick a wall that is needed stays where that ground would take it, and
+# how round its back is.
+CORE_MM = 1.2
+# How many spans are remembered with their ground, from one round of planning to the next.
+_REMEMBERED = 1000
+BACK_MM = 1.0
 # Where one looks for the wall beside a turn: TOUCH behind the place of its face, deeper than polygons err
 # (1e-3 mm), far less than any wall is wide. Each FACE_STEP where support is measured or holes are placed
 # (30 % up or down moves support by 0.001), each ROUGH_STEP where a wall is only told from none, or a loss is
@@ -38,50 +46,56 @@ ROUGH_STEP_MM = 0.2
 
 
 def wall_polygons(
-    channels: Channels, config: JigConfig, obstacles: Any
+    channels: Channels, config: JigConfig, obstacles: Any, held: Sequence[Turn], free: Any = None
 ) -> tuple[list[tuple[Any, tuple[Turn, ...]]], tuple[Finding, ...]]:
-    """Each wall's polygon with the turns that it holds, from lower left to upper right; what was dropped.
+    """Each wall's polygon with the spans that it holds, from lower left to upper right; what was dropped.
 
+    Walls stand on the inside of the spans `held`. `free` (shapely) is ground that only their cores may take.
     Walls thinner than `min_wall_width` or smaller than `min_wall_area` are left out, and so are
-    those that touch the inside of no turn.
+    those that touch the inside of no span.
     """
-    import shapely
-
-    turns = [turn for wire in channels.wires for turn in wire.turns]
-    if not turns:
+    if not held:
         return [], ()
-    ground = shapely.union_all([wall_ground(channels, turn, config) for turn in turns])
+    ground = _ground(channels, held, config, config.wall_thickness)
+    if free is not None:
+        core = _ground(channels, held, config, max(CORE_MM, config.min_wall_width))
+        ground = _rounded(ground.difference(free).union(core)).union(core)
     # Notches between neighbouring strips are filled, convex corners stay as they are.
     ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
     ground = ground.simplify(SIMPLER_MM)
-    free = ground.difference(channels.area).difference(obstacles)
-    pieces = sorted(_polygons(_printable(free, config)), key=lambda part: tuple(np.round(part.bounds, 6)))
-    held = _held(channels, turns, pieces)
-    walls = [(piece, mine) for piece, mine in zip(pieces, held, strict=True) if mine]
+    standing = ground.difference(passage(channels, held, config)).difference(obstacles)
+    pieces = sorted(_polygons(_printable(standing, config)), key=lambda part: tuple(np.round(part.bounds, 6)))
+    touched = _held(channels, held, pieces)
+    walls = [(piece, mine) for piece, mine in zip(pieces, touched, strict=True) if mine]
     kept = [wall for wall in walls if wall[0].area >= config.min_wall_area]
     small = [piece for piece, _ in walls if piece.area < config.min_wall_area]
     return kept, (_dropped(small, config),) if small else ()
 
 
-def wall_ground(channels: Channels, turn: Turn, config: JigConfig) -> Any:
+def _ground(channels: Channels, held: Sequence[Turn], config: JigConfig, thickness_mm: float) -> Any:
+    import shapely
+
+    return shapely.union_all([wall_ground(channels, span, config, thickness_mm) for span in held])
+
+
+def _rounded(ground: Any) -> Any:
+    """The ground without hollows and corners at its back that are narrower than a fingertip is round."""
+    return ground.buffer(BACK_MM).buffer(-2 * BACK_MM).buffer(BACK_MM)
+
+
+@lru_cache(_REMEMBERED)
+def wall_ground(channels: Channels, turn: Turn, config: JigConfig, thickness_mm: float) -> Any:
     """The ground within wall thickness of a turn on its inside: all points c + x n, 0 ≤ x ≤ depth.
 
     Where the turn is tighter than the depth, the rays cross at its centre and fill it: a solid post.
     """
-    import shapely
-
-    depth = channels.reach_mm + config.wall_thickness
-    _, points, normals, curvature = channels.stations(turn, STEP_MM, config.min_wall_width)
+    depth, beyond_mm = channels.reach_mm + thickness_mm, prolonged_mm(turn, config)
+    _, points, normals, curvature = channels.stations(turn, STEP_MM, beyond_mm)
     fan_rad = float((np.abs(curvature[:-1]) * steps(points)).max())
     if fan_rad > FAN_RAD:
         finer_mm = max(STEP_MM * FAN_RAD / fan_rad, LEAST_STEP_MM)
-        _, points, normals, _ = channels.stations(turn, finer_mm, config.min_wall_width)
-    strips = []
-    for side in SIDES[turn.inside]:
-        far = points + side * depth * normals
-        corners = np.stack([points[:-1], points[1:], far[1:], far[:-1]], axis=1)
-        strips.append(shapely.convex_hull(shapely.multipoints(corners)))
-    return shapely.union_all(np.concatenate(strips))
+        _, points, normals, _ = channels.stations(turn, finer_mm, beyond_mm)
+    return beside(points, normals, SIDES[turn.inside], 0.0, depth)
 
 
 def _dropped(small: Sequence[Any], config: JigConfig) -> Finding:
@@ -120,8 +134,8 @@ def _held(channels: Channels, turns: Sequence[Turn], pieces: Sequence[Any]) -> l
 def face_probes(channels: Channels, turn: Turn, step_mm: float, depth_mm: float) -> FloatArray:
     """Points (m, 2) just inside where the wall's face along a turn should be."""
     _, points, normals, _ = channels.stations(turn, step_mm)
-    away = channels.reach_mm + depth_mm
-    return np.concatenate([points + side * away * normals for side in SIDES[turn.inside]])
+    away = channels.face_mm + depth_mm
+    return np.asarray(points + SIDES[turn.inside] * away * normals)
 
 
 def inside(tree: Any, probes: Any) -> tuple[IntArray, IntArray]:

@@ -11,10 +11,11 @@ from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_obstacles, hole_rims, start_holes
-from wrapit.jig.openings.pins import pin_holes, pin_obstacles
+from wrapit.jig.openings.pins import pin_discs, pin_holes, pin_obstacles
 from wrapit.jig.support import turn_support
 from wrapit.jig.wall_face import Face, wall_face
-from wrapit.jig.wall_ground import wall_polygons
+from wrapit.jig.wrapping.courses import Course
+from wrapit.jig.wrapping.needs import planned_walls
 from wrapit.wires.model import Turn, Wire
 
 # How many groups of wires are remembered with their walls, from one kind of jig to the next? A piece whose
@@ -24,9 +25,9 @@ _REMEMBERED = 12
 
 @dataclass(frozen=True, eq=False)
 class WallPlan:
-    """Polygons of walls with the turns that they hold, pins, start holes; shapely geometry for the rest.
+    """Polygons of walls with the spans that they hold, pins, start holes; shapely geometry for the rest.
 
-    `rims` are the holes' outlines, `blocked` is where no wall may stand.
+    `rims` are the holes' outlines, `blocked` is where no wall may stand, `laid` how the wires lie when taut.
     """
 
     polygons: tuple[tuple[Any, tuple[Turn, ...]], ...]
@@ -34,6 +35,7 @@ class WallPlan:
     holes: tuple[Hole, ...]
     rims: Any
     blocked: Any
+    laid: tuple[Course, ...]
     findings: tuple[Finding, ...]
 
 
@@ -44,14 +46,13 @@ def plan_walls(channels: Channels, config: JigConfig, pockets: Any) -> WallPlan:
     holes = start_holes(channels, config)
     rims = hole_rims(holes)
     blocked = hole_obstacles(holes).union(pockets)
-    polygons, dropped = wall_polygons(channels, config, blocked)
-    pins = pin_holes(
-        channels, config, rims.union(pockets), shapely.union_all([polygon for polygon, _ in polygons])
-    )
+    walls = planned_walls(channels, config, blocked)
+    standing = shapely.union_all([polygon for polygon, _ in walls.polygons])
+    pins = pin_holes(channels, config, rims.union(pockets), standing)
     if pins:
         blocked = shapely.union_all([blocked, pin_obstacles(pins)])
-        polygons, dropped = wall_polygons(channels, config, blocked)
-    return WallPlan(tuple(polygons), tuple(pins), tuple(holes), rims, blocked, dropped)
+        walls = planned_walls(channels, config, blocked, pin_discs(pins))
+    return WallPlan(walls.polygons, tuple(pins), tuple(holes), rims, blocked, walls.laid, walls.findings)
 
 
 @dataclass(frozen=True, eq=False)

@@ -62,7 +62,7 @@ def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
             "name": wire.name,
             "length_mm": _mm(wire.length_mm),
             "cut_length_mm": _mm(wire.cut_length_mm),
-            "turns": sum(turn.inside != "both" for turn in wire.turns),
+            "turns": sum(not turn.stretch for turn in wire.turns),
             "connections": len(wire.bindings),
             "min_bend_radius_mm": _mm(wire.min_bend_radius_mm),
             "max_deviation_from_drawing_mm": _mm(wire.max_deviation_from_drawing_mm),

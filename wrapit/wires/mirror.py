@@ -12,7 +12,7 @@ from wrapit.geometry import BSpline
 from wrapit.wires.model import JumpRing, Side, Wire
 
 # What a mirror with a vertical axis does to sides and to coordinates.
-_OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left", "both": "both"}
+_OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left"}
 _FLIP = np.array([-1.0, 1.0])
 
 

@@ -14,15 +14,15 @@ from wrapit.geometry import BSpline, FloatArray
 
 # Between a jump ring and the wire it hangs on: it swings, and the kernel sees two solids that don't touch.
 RING_GAP_MM = 0.05
-Side = Literal["left", "right", "both"]
+Side = Literal["left", "right"]
 
 
 @dataclass(frozen=True)
 class Turn:
     """A span of a wire that the jig has to hold, by arc length.
 
-    `inside` is the side (seen in the direction of travel) where the wall stands; long straight
-    stretches are held on both sides.
+    `inside` is the side (seen in the direction of travel) where the wall stands. `stretch` says that it is
+    no turn but a long stretch between turns.
     """
 
     wire: str
@@ -30,6 +30,7 @@ class Turn:
     end_mm: float
     inside: Side
     max_curvature_per_mm: float
+    stretch: bool = False
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
-from wrapit.wires.model import Turn
+from wrapit.wires.model import Side, Turn
 
 # How closely curvature is looked at: with 0.035 or 0.065 the turns of three of our drawings (707 mm) are the
 # same ones and change by 0.1 mm together.
@@ -37,7 +37,8 @@ def find_turns(name: str, spline: BSpline, config: JigConfig) -> tuple[tuple[Tur
     spans = _merged(_sharp_spans(curvature, turning, config.turn_curvature), at_mm, turning)
     kept = [span for span in spans if abs(span.turning_rad) >= config.turn_angle]
     turns = [_turn(name, span, at_mm, curvature) for span in kept]
-    turns += _long_stretches(name, kept, at_mm, config.long_segment)
+    if config.support == "turns":
+        turns += _long_stretches(name, kept, at_mm, turning, config.long_segment)
     dropped = tuple(
         Finding(
             "note",
@@ -84,11 +85,15 @@ def _turn(name: str, span: _Span, at_mm: FloatArray, curvature: FloatArray) -> T
     )
 
 
-def _long_stretches(name: str, turns: list[_Span], at_mm: FloatArray, longest_mm: float) -> list[Turn]:
-    bounds = [0.0, *itertools.chain(*((at_mm[t.start], at_mm[t.end]) for t in turns)), float(at_mm[-1])]
-    gaps = zip(bounds[::2], bounds[1::2], strict=True)
-    return [
-        Turn(name, float(a) + END_CLEARANCE_MM, float(b) - END_CLEARANCE_MM, "both", 0.0)
-        for a, b in gaps
-        if b - a > max(longest_mm, 3 * END_CLEARANCE_MM)
-    ]
+def _long_stretches(
+    name: str, turns: list[_Span], at_mm: FloatArray, turning: FloatArray, longest_mm: float
+) -> list[Turn]:
+    """Long stretches between turns, with a wall on their concave side (the left one of a straight line)."""
+    bounds = [0, *itertools.chain(*((t.start, t.end) for t in turns)), len(at_mm) - 1]
+    stretches = []
+    for a, b in zip(bounds[::2], bounds[1::2], strict=True):
+        if at_mm[b] - at_mm[a] > max(longest_mm, 3 * END_CLEARANCE_MM):
+            inside: Side = "left" if turning[a:b].sum() >= 0 else "right"
+            low, high = float(at_mm[a]) + END_CLEARANCE_MM, float(at_mm[b]) - END_CLEARANCE_MM
+            stretches.append(Turn(name, low, high, inside, 0.0, stretch=True))
+    return stretches

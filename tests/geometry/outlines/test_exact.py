@@ -27,7 +27,7 @@ R = 0.7
 
 
 def outlined(edges, box):
-    outliner = Outliner.of(edges, R, 1.2e-3)
+    outliner = Outliner.of(edges, (R,), 1.2e-3)
     lines = [shapely.LineString(as_chain(edge).sampled(0.01)) for edge in edges]
     grown = shapely.union_all(shapely.buffer(lines, R + 3e-4, quad_segs=32))
     parts = shapely.get_parts(box.difference(grown))

@@ -89,7 +89,7 @@ def test_pegs_stand_inside_their_turns_and_in_nobodys_way(
     for first, second in itertools.combinations(plan.pegs, 2):
         apart = math.dist(plan.board.place(first.cell), plan.board.place(second.cell))
         assert apart >= (first.diameter_mm + second.diameter_mm) / 2
-    turns = [turn for turn in wire.turns if turn.inside != "both"]
+    turns = [turn for turn in wire.turns if not turn.stretch]
     served = [turn for peg in plan.pegs for turn, _ in peg.turns]
     assert sorted([*served, *plan.unserved], key=lambda turn: turn.start_mm) == turns
 
@@ -98,7 +98,7 @@ def test_pegs_stand_inside_their_turns_and_in_nobodys_way(
 @given(radius=st.floats(1.5, 8.0), degrees=st.sampled_from([60.0, 120.0, 180.0]))
 def test_no_hole_of_any_board_would_do_better_for_one_turn(radius: float, degrees: float) -> None:
     plan, channels = planned([arcs((0, 0), 0, (8.0, 0), (radius, degrees), (8.0, 0))])
-    turn = next(turn for turn in channels.wires[0].turns if turn.inside != "both")
+    turn = next(turn for turn in channels.wires[0].turns if not turn.stretch)
     _, points, _, _ = channels.stations(turn, 0.25)
     centreline = shapely.LineString(channels.chains[0].sampled(0.05))
     config, half = PegsConfig(), channels.diameter_mm / 2

@@ -202,7 +202,7 @@ def test_folded_outline_is_replaced_by_its_polygon(monkeypatch: pytest.MonkeyPat
     channels = Channels.of(wires, JigConfig())
     good = wall_face(channels, plan.walls[0])
     assert good.exact
-    nearer = Outliner.of(channels.chains, channels.reach_mm - 0.05, 0.06).region(plan.walls[0].outline)
+    nearer = Outliner.of(channels.chains, (channels.reach_mm - 0.05,), 0.06).region(plan.walls[0].outline)
     monkeypatch.setattr(Outliner, "region", lambda self, polygon: nearer)
     bad = wall_face(channels, plan.walls[0])
     assert not bad.exact

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -35,17 +35,21 @@ FREE_TOLERANCE_MM = 0.005
 
 @dataclass(frozen=True, eq=False)
 class Outliner:
-    """Replaces a polygon's sides at `distance_mm`, give or take `slack_mm`, from an edge by exact curves."""
+    """Replaces a polygon's sides at one of the distances from an edge, within `slack_mm`, by exact curves.
+
+    `distances_mm` rise, and are further apart than twice the slack.
+    """
 
     edges: tuple[Edge, ...]
     curves: CurveSet
-    distance_mm: float
+    distances_mm: tuple[float, ...]
     slack_mm: float
 
     @staticmethod
-    def of(edges: Sequence[Edge], distance_mm: float, slack_mm: float) -> Outliner:
-        """An outliner for the parallels of these edges."""
-        return Outliner(tuple(edges), CurveSet.of([as_chain(e) for e in edges]), distance_mm, slack_mm)
+    def of(edges: Sequence[Edge], distances_mm: Iterable[float], slack_mm: float) -> Outliner:
+        """An outliner for the parallels of these edges at each of the distances."""
+        curves = CurveSet.of([as_chain(edge) for edge in edges])
+        return Outliner(tuple(edges), curves, tuple(sorted(set(distances_mm))), slack_mm)
 
     def region(self, polygon: Any) -> Region:
         """The exact region of a polygon whose outer ring is counter-clockwise, holes clockwise."""
@@ -60,7 +64,7 @@ class Outliner:
         if endless:
             return Loop(tuple(self._whole(runs[0])))
         ends = [
-            meet(before, after, self.curves, self.distance_mm)
+            meet(before, after, self.curves, self.distances_mm[0])
             for before, after in zip(runs, runs[1:] + runs[:1], strict=True)
         ]
         edges: list[Edge] = []
@@ -73,29 +77,34 @@ class Outliner:
 
     def _runs(self, points: FloatArray) -> tuple[list[Run], bool]:
         """The ring's runs in order, and whether it is one run without beginning or end."""
-        near = self.curves.nearest(points, self.distance_mm + self.slack_mm)
-        on = np.abs(near.distance - self.distance_mm) <= self.slack_mm
+        near = self.curves.nearest(points, self.distances_mm[-1] + self.slack_mm)
+        apart = np.abs(near.distance[:, None] - np.array(self.distances_mm))
+        which = apart.argmin(axis=1)
+        on = apart.min(axis=1) <= self.slack_mm
         key = np.full(len(points), -1, dtype=np.int64)
         place = np.full(len(points), np.nan)
         feet, tangents, _ = self.curves.frame(near.curve[on], near.at[on])
-        apart = points[on] - feet
-        across = tangents[:, 0] * apart[:, 1] - tangents[:, 1] * apart[:, 0]
-        oblique = np.abs((tangents * apart).sum(axis=1)) > SIDEWAYS * self.distance_mm
-        rounds = _Names()
-        names = [
-            2 * len(self.edges) + rounds.index(foot) if slant else 2 * int(curve) + int(side < 0)
-            for foot, slant, curve, side in zip(feet, oblique, near.curve[on], across, strict=True)
-        ]
-        key[on] = names
-        place[on] = np.where(oblique, np.arctan2(apart[:, 1], apart[:, 0]), near.at[on])
-        parallels = {name: self._parallel(name, rounds.points) for name in set(names)}
+        away = points[on] - feet
+        across = tangents[:, 0] * away[:, 1] - tangents[:, 1] * away[:, 0]
+        distance = np.array(self.distances_mm)[which[on]]
+        oblique = np.abs((tangents * away).sum(axis=1)) > SIDEWAYS * distance
+        centres = _Points()
+        known: dict[tuple[str, int, float], int] = {}
+        for index, (foot, slant, curve, side, mm) in enumerate(
+            zip(feet, oblique, near.curve[on], across, distance.tolist(), strict=True)
+        ):
+            name = (
+                ("round", centres.index(foot), mm) if slant else ("side", int(curve), math.copysign(mm, side))
+            )
+            key[np.flatnonzero(on)[index]] = known.setdefault(name, len(known))
+        place[on] = np.where(oblique, np.arctan2(away[:, 1], away[:, 0]), near.at[on])
+        parallels = {number: self._parallel(*name, centres.points) for name, number in known.items()}
         return _grouped(points, key, place, parallels)
 
-    def _parallel(self, name: int, centres: list[tuple[float, float]]) -> Parallel:
-        if name >= 2 * len(self.edges):
-            return Round(centres[name - 2 * len(self.edges)], self.distance_mm)
-        curve, right = divmod(name, 2)
-        return Side(self.curves, self.edges[curve], curve, -self.distance_mm if right else self.distance_mm)
+    def _parallel(self, kind: str, index: int, mm: float, centres: list[tuple[float, float]]) -> Parallel:
+        if kind == "round":
+            return Round(centres[index], mm)
+        return Side(self.curves, self.edges[index], index, mm)
 
     def _whole(self, run: Run) -> list[Edge]:
         """A ring that is one run: a full circle, a closed parallel without seam in sight, or free."""
@@ -122,20 +131,23 @@ class Outliner:
 
     def _free(self, points: FloatArray) -> list[Edge]:
         """Fitted edges; straight ones from point to point where a fitted one would come too near a curve."""
-        edges = fitted_edges(points, FREE_TOLERANCE_MM)
-        if all(self._clear(edge) for edge in edges):
-            return edges
+        # Between two distances a polygon's side may be the parallel of the curve that is not the nearest.
+        near = self.curves.nearest(points[1:-1], self.distances_mm[-1]).distance
+        if len(self.distances_mm) == 1 or (near >= self.distances_mm[-1] - self.slack_mm).all():
+            edges = fitted_edges(points, FREE_TOLERANCE_MM)
+            if all(self._clear(edge) for edge in edges):
+                return edges
         thinned = _without_needless(points)
         return [Line(point_of(a), point_of(b)) for a, b in itertools.pairwise(thinned)]
 
     def _clear(self, edge: Edge) -> bool:
         if isinstance(edge, Line):
             return True
-        near = self.curves.nearest(edge.sampled(0.02), self.distance_mm)
-        return bool((near.distance >= self.distance_mm - 1e-7).all())
+        near = self.curves.nearest(edge.sampled(0.02), self.distances_mm[-1])
+        return bool((near.distance >= self.distances_mm[-1] - 1e-7).all())
 
 
-class _Names:
+class _Points:
     """Numbers points; points within 1e-6 of one another get the same number."""
 
     def __init__(self) -> None:

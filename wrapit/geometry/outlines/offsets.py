@@ -31,7 +31,7 @@ def offset_region(region: Region, distance_mm: float) -> tuple[Region, ...]:
     moved = flat.buffer(distance_mm, quad_segs=64)
     distance = abs(distance_mm)
     edges = [edge for loop in loops for edge in loop.edges]
-    outliner = Outliner.of(edges, distance, min(1.2e-3, distance / 4))
+    outliner = Outliner.of(edges, (distance,), min(1.2e-3, distance / 4))
     parts = [part for part in get_parts(moved) if part.geom_type == "Polygon" and not part.is_empty]
     parts.sort(key=lambda part: part.bounds)
     return tuple(outliner.region(orient(part)) for part in parts)

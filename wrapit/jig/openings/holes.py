@@ -69,7 +69,9 @@ def _outline(tails: list[FloatArray], diameter: float) -> Loop:
     )
     whole = shapely.union_all(grown)
     ring = shapely.Polygon(whole.exterior).exterior
-    return Outliner.of(edges, diameter / 2, CHANNEL_SLACK_MM).loop(shapely.Polygon(ring).normalize().exterior)
+    return Outliner.of(edges, (diameter / 2,), CHANNEL_SLACK_MM).loop(
+        shapely.Polygon(ring).normalize().exterior
+    )
 
 
 def _spanning(points: list[FloatArray]) -> list[tuple[FloatArray, FloatArray]]:

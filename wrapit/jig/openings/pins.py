@@ -51,6 +51,13 @@ def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> 
     return tuple(pins)
 
 
+def pin_discs(pins: tuple[Pin, ...]) -> list[Any]:
+    """The pins themselves, as shapely geometry."""
+    import shapely
+
+    return [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2, quad_segs=16) for pin in pins]
+
+
 def pin_obstacles(pins: tuple[Pin, ...]) -> Any:
     """Where no wall may stand because of the pins."""
     import shapely
@@ -69,7 +76,7 @@ def _held(channels: Channels, turn: Turn, walls: Any) -> float:
 
 
 def _pin(channels: Channels, turn: Turn, config: JigConfig) -> Pin | None:
-    if turn.inside == "both" or turn.max_curvature_per_mm <= 0:
+    if turn.stretch or turn.max_curvature_per_mm <= 0:
         return None
     side = 1.0 if turn.inside == "left" else -1.0
     _, points, normals, curvature = channels.stations(turn, STEP_MM)

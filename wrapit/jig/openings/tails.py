@@ -82,7 +82,7 @@ def _faces(channels: Channels) -> tuple[Any, Any]:
     kinds: tuple[list[FloatArray], list[FloatArray]] = ([np.empty((0, 2))], [np.empty((0, 2))])
     for wire in channels.wires:
         for turn in wire.turns:
-            kinds[turn.inside == "both"].append(face_probes(channels, turn, FACE_STEP_MM, TOUCH_MM))
+            kinds[turn.stretch].append(face_probes(channels, turn, FACE_STEP_MM, TOUCH_MM))
     shapely.prepare(channels.area)
     points = [shapely.points(np.concatenate(kind)) for kind in kinds]
     turns, stretches = (each[~shapely.contains(channels.area, each)] for each in points)

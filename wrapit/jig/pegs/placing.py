@@ -57,9 +57,7 @@ def place_pegs(channels: Channels, config: PegsConfig) -> PegPlan:
     low = np.vstack([chain.points.reshape(-1, 2).min(axis=0) for chain in channels.chains]).min(axis=0)
     high = np.vstack([chain.points.reshape(-1, 2).max(axis=0) for chain in channels.chains]).max(axis=0)
     lines = shapely.union_all([shapely.LineString(chain.sampled(0.05)) for chain in channels.chains])
-    turns = [
-        _inside(channels, turn) for wire in channels.wires for turn in wire.turns if turn.inside != "both"
-    ]
+    turns = [_inside(channels, turn) for wire in channels.wires for turn in wire.turns if not turn.stretch]
     best: tuple[float, list[list[_Choice]], Board] | None = None
     for board in _boards(low, high, config):
         choices = _choices(board, turns, lines, channels.diameter_mm / 2, config)
@@ -84,7 +82,7 @@ def _boards(low: FloatArray, high: FloatArray, config: PegsConfig) -> Iterator[B
 
 def _inside(channels: Channels, turn: Turn) -> _Inside:
     _, points, normals, _ = channels.stations(turn, STEP_MM)
-    return _Inside(turn, points, normals * SIDES[turn.inside][0])
+    return _Inside(turn, points, normals * SIDES[turn.inside])
 
 
 def _choices(

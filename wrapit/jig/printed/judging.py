@@ -35,9 +35,10 @@ def judged(made: Made, wires: Wires, config: Config) -> Made:
             continue  # nothing of it is bent, so no jig holds it
         part = next(part for part in made.parts if part.name == made.handling.jig_of[wire.name])
         base_mm = config.jig.base_thickness
+        gap_mm = min(config.jig.inside_gap, config.jig.clearance)
         # The wire as it lies, over others too; and its channel, as a wire as thick as that along the plate.
         channel = dataclasses.replace(
-            wire, diameter_mm=wire.diameter_mm + 2 * (config.jig.clearance - _WITHIN_MM), lifts=()
+            wire, diameter_mm=wire.diameter_mm + 2 * (gap_mm - _WITHIN_MM), lifts=()
         )
         for what, round_one in (("", wire), ("'s channel", channel)):
             shared = _common_mm3(part.solid, round_one, base_mm)

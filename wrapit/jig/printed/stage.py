@@ -38,7 +38,7 @@ def plan_held(
     planned, findings = plan_jigs(wires, config)
     refuse_unheld((one for jig in planned for one in jig.held), config)
     for part in planned:
-        _check_gap(part, config)
+        _check_gap(part)
     return planned, findings
 
 
@@ -89,9 +89,9 @@ def _plain_outline(jig: str, place: str) -> Finding:
     )
 
 
-def _check_gap(part: PlannedJig, config: JigConfig) -> None:
+def _check_gap(part: PlannedJig) -> None:
     gap = part.gap_mm
-    if gap is not None and gap < config.clearance - CLEARANCE_TOLERANCE_MM:
+    if gap is not None and gap < part.channels.inside_gap_mm - CLEARANCE_TOLERANCE_MM:
         raise JigError(
             f"a wall comes within {gap:.4f} mm of a wire",
             part.plan.name,

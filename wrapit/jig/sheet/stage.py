@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from wrapit.jig.channel import Channels
 from wrapit.jig.grouping import parted
 from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_rims, start_holes
-from wrapit.jig.openings.pins import pin_holes
+from wrapit.jig.openings.pins import pin_discs, pin_holes
 from wrapit.jig.sheet.checks import LEAST_WEB_MM, check_sheets
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
@@ -23,9 +23,9 @@ from wrapit.jig.sheet.parts import copies_needed, stack_parts
 from wrapit.jig.sheet.shops import check_shop
 from wrapit.jig.support import refuse_unheld, support_by_wire, turn_support, with_pins
 from wrapit.jig.wall_face import plain_finding, wall_face
-from wrapit.jig.wall_ground import wall_polygons
 from wrapit.jig.walls_and_pins import standing_walls
-from wrapit.wires.model import Turn, Wire
+from wrapit.jig.wrapping.needs import planned_walls
+from wrapit.wires.model import Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate: the narrowest web of most pieces
 # (leaf: 1.20 mm; with 0.84 it is 0.84, and the butterfly's walls have 1 % more area).
@@ -147,22 +147,25 @@ def plan_stack(
     channels = Channels.of(wires, wide)
     holes = start_holes(channels, wide)
     rims = hole_rims(holes)
-    bare, _ = wall_polygons(channels, wide, rims.buffer(HOLE_WEB_MM + config.fit, quad_segs=16))
-    pins = pin_holes(channels, wide, rims, shapely.union_all([polygon for polygon, _ in bare]))
-    discs = [shapely.Point(pin.centre).buffer(pin.diameter_mm / 2, quad_segs=32) for pin in pins]
-    clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
-    polygons, dropped = wall_polygons(channels, wide, clear)
+    planned = planned_walls(channels, wide, rims.buffer(HOLE_WEB_MM + config.fit, quad_segs=16))
+    bare = shapely.union_all([polygon for polygon, _ in planned.polygons])
+    pins = pin_holes(channels, wide, rims, bare)
+    if pins:
+        discs = pin_discs(pins)
+        clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
+        planned = planned_walls(channels, wide, clear, discs)
+    polygons = planned.polygons
     least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * channels.reach_mm - _FACE_MM)
     apart = kept_apart([polygon for polygon, _ in polygons], least_mm)
     faces = tuple(
         wall_face(channels, Wall(turns, polygon, config.wall_sheet))
         for polygon, (_, turns) in zip(apart, polygons, strict=True)
     )
-    held = {turn for _, turns in polygons for turn in turns} | {pin.turn for pin in pins}
-    loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
     walls = tuple(face.region for face in faces)
-    plan = LaserPlan(wires, walls, holes, pins, with_pins(turn_support(channels, walls), pins))
-    return plan, (*dropped, *plain_finding(faces, "laser-cut jig"), *loose)
+    held = with_pins(turn_support(channels, walls), pins)
+    loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
+    plan = LaserPlan(wires, walls, holes, pins, held)
+    return plan, (*planned.findings, *plain_finding(faces, "laser-cut jig"), *loose)
 
 
 def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
@@ -183,8 +186,8 @@ def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
     return kept
 
 
-def _unheld(wire: Wire, held: Set[Turn]) -> Finding | None:
-    loose = [turn for turn in wire.turns if turn not in held]
+def _unheld(wire: Wire, held: Iterable[TurnSupport]) -> Finding | None:
+    loose = [one.turn for one in held if one.turn.wire == wire.name and one.share == 0]
     if not loose:
         return None
     places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)

@@ -1,0 +1,85 @@
+"""The ground that walls leave to wires: a little where they hold one, the clearance elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig
+from wrapit.geometry import FloatArray
+from wrapit.jig.channel import SIDES, Channels
+from wrapit.wires.model import Turn
+
+# Between points along a held side, in mm: from one to the next the side of a turn of 0.5 mm radius strays by
+# 0.1²/(8 · 0.5) = 2.5e-3 mm, a fortieth of what a wire has on that side less than elsewhere.
+STEP_MM = 0.1
+# A held side reaches so far beyond the channel and, along the wire, beyond the wall's ends, in mm, that their
+# sides are nowhere the same: polygons err by 1e-3.
+OVER_MM = 0.01
+BEYOND_MM = 0.3
+# How many spans are remembered from one round of planning to the next: those of the largest piece.
+_REMEMBERED = 1000
+
+
+def passage(channels: Channels, held: Sequence[Turn], config: JigConfig) -> Any:
+    """What walls that hold these spans must leave free (shapely), CHANNEL_PAD_MM too wide."""
+    import shapely
+
+    if channels.face_mm == channels.reach_mm:
+        return channels.area
+    mine = [tuple(span for span in held if span.wire == wire.name) for wire in channels.wires]
+    return shapely.union_all([_of_wire(channels, i, spans, config) for i, spans in enumerate(mine)])
+
+
+@lru_cache(_REMEMBERED)
+def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: JigConfig) -> Any:
+    """What is left free for one wire."""
+    import shapely
+
+    sides = {span: _held_side(channels, span, prolonged_mm(span, config)) for span in held}
+    whole = channels.around(index, channels.reach_mm).difference(shapely.union_all(list(sides.values())))
+    parts = [whole, channels.around(index, channels.face_mm)]
+    for span, side in sides.items():
+        rest = _rest(channels, index, span, prolonged_mm(span, config))
+        if rest is not None and rest.dwithin(side, channels.reach_mm):
+            parts.append(rest.buffer(channels.reach_mm, quad_segs=32).intersection(side))
+    return shapely.union_all(parts)
+
+
+def prolonged_mm(span: Turn, config: JigConfig) -> float:
+    """How far a wall goes on beyond the ends of a span: a turn's to where the wire is straight again."""
+    return 0.0 if span.stretch else config.min_wall_width
+
+
+@lru_cache(_REMEMBERED)
+def _held_side(channels: Channels, span: Turn, beyond_mm: float) -> Any:
+    """The ground beside a span where the wall that holds it stands nearer than the clearance."""
+    _, points, normals, _ = channels.stations(span, STEP_MM, beyond_mm + BEYOND_MM)
+    return beside(points, normals, SIDES[span.inside], 0.0, channels.reach_mm + OVER_MM)
+
+
+@lru_cache(_REMEMBERED)
+def _rest(channels: Channels, index: int, span: Turn, beyond_mm: float) -> Any:
+    """The rest of the wire, beyond what lies beside the span's own ends; None if that is nothing."""
+    import shapely
+    from shapely.ops import substring
+
+    apart = beyond_mm + BEYOND_MM + 2 * channels.reach_mm
+    parts = []
+    line = channels.lines[index]
+    for low, high in ((0.0, span.start_mm - apart), (span.end_mm + apart, line.length)):
+        if high - low > STEP_MM:
+            parts.append(substring(line, low, high))
+    return shapely.union_all(parts) if parts else None
+
+
+def beside(points: FloatArray, normals: FloatArray, side: float, near_mm: float, far_mm: float) -> Any:
+    """The ground from `near_mm` to `far_mm` beside a line of points (m, 2): side 1 is left, -1 right."""
+    import shapely
+
+    near, far = points + side * near_mm * normals, points + side * far_mm * normals
+    corners = np.stack([near[:-1], near[1:], far[1:], far[:-1]], axis=1)
+    return shapely.union_all(shapely.convex_hull(shapely.multipoints(corners)))

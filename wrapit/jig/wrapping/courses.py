@@ -1,0 +1,82 @@
+"""How each wire lies when it is laid under tension round the walls, and how far that is from the drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from wrapit.geometry import FloatArray
+from wrapit.geometry.arclength import ArcLength
+from wrapit.jig.channel import Channels
+from wrapit.jig.taut.deviation import deviations
+from wrapit.jig.taut.shortest import FreeGround
+from wrapit.wires.model import Wire
+
+# How finely a drawn wire is looked at: half a tolerance of 0.35 mm and less.
+STEP_MM = 0.2
+# A wire off by more than this is seen to be off: half a wire's thickness.
+SEEN_MM = 0.5
+# What walls may lose of their corners' roundness before a wire is laid round them.
+SIMPLER_MM = 5e-3
+# How many wires are remembered with their places from one round of planning to the next.
+_REMEMBERED = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """One wire laid under tension.
+
+    `taut` (m, 2) is its course, `at_mm` (n,) are places along the drawn wire, `drawn` (n, 2) their points,
+    `off_mm` (n,) how far from each the taut wire passes.
+    """
+
+    wire: str
+    taut: FloatArray
+    at_mm: FloatArray
+    drawn: FloatArray
+    off_mm: FloatArray
+
+    @property
+    def share_off(self) -> float:
+        """Share of the wire that lies more than SEEN_MM off."""
+        return float((self.off_mm > SEEN_MM).mean())
+
+
+def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:
+    """The course of each wire round these walls (shapely polygons), in the order of the wires.
+
+    The shortest path that goes round the walls the same way as the drawn wire. Its ends are held; wires
+    don't hinder one another, as they lie in layers.
+    """
+    import shapely
+
+    grown = shapely.union_all(shapely.buffer(list(walls), channels.diameter_mm / 2, quad_segs=16)).simplify(
+        SIMPLER_MM
+    )
+    places = [_places(wire) for wire in channels.wires]
+    ground = FreeGround.around(grown, [points for _, points in places])
+    return tuple(
+        _course(wire.name, ground.pulled(points, closed=wire.closed), at_mm, points)
+        for wire, (at_mm, points) in zip(channels.wires, places, strict=True)
+    )
+
+
+def _course(name: str, taut: FloatArray, at_mm: FloatArray, points: FloatArray) -> Course:
+    return Course(name, taut, at_mm, points, deviations(points, taut))
+
+
+@lru_cache(_REMEMBERED)
+def _places(wire: Wire) -> tuple[FloatArray, FloatArray]:
+    """Places along a wire (n,) and their points (n, 2)."""
+    lengths = ArcLength(wire.centreline)
+    at_mm = lengths.stations(STEP_MM)
+    return at_mm, wire.centreline.at(lengths.parameter(at_mm))
+
+
+def all_off(laid: Sequence[Course]) -> FloatArray:
+    """How far off all wires lie, at equal steps along each, (n,)."""
+    return np.concatenate([course.off_mm for course in laid])

@@ -1,0 +1,137 @@
+"""Which walls are needed: on the inside of sharp turns, and wherever else a taut wire would stray.
+
+The paper (section 5) puts walls on the inside of turns and leaves the ground around them free to wrap. Here
+the wire is laid under tension round these walls (`courses`); where it would stray, another wall is put on
+the side it strays to, and so on until it lies as drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from wrapit.config import JigConfig
+from wrapit.errors import Finding
+from wrapit.jig.channel import Channels
+from wrapit.jig.wall_ground import wall_polygons
+from wrapit.jig.wrapping.courses import Course, courses
+from wrapit.jig.wrapping.free_sides import free_sides
+from wrapit.wires.model import Side, Turn
+
+# How long a piece of wall is added at a time: the next longer one where a wall of that length is planned
+# already, but doesn't stand, or doesn't help. Of SAME_MM of a piece it doesn't matter whether it is planned.
+PIECES_MM = (4.0, 8.0, 12.0)
+SAME_MM = 0.5
+# Walls on one side of a wire with less between them are one: as a multiple of the narrowest wall.
+JOINED = 3.0
+# Rounds of adding walls, after which what strays is reported as it is.
+ROUNDS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class NeededWalls:
+    """Walls with the spans that they hold, what was dropped, and how the wires lie round them."""
+
+    polygons: tuple[tuple[Any, tuple[Turn, ...]], ...]
+    findings: tuple[Finding, ...]
+    held: tuple[Turn, ...]
+    laid: tuple[Course, ...]
+
+
+def planned_walls(
+    channels: Channels, config: JigConfig, obstacles: Any, pins: Sequence[Any] = ()
+) -> NeededWalls:
+    """The walls that `config.support` asks for, and how the wires lie round them and round `pins` (shapely).
+
+    No wall stands on the `obstacles` (shapely).
+    """
+    if config.support == "taut":
+        return _needed(channels, config, obstacles, pins)
+    held = tuple(turn for wire in channels.wires for turn in wire.turns)
+    return _standing(channels, config, obstacles, pins, held)
+
+
+def _needed(channels: Channels, config: JigConfig, obstacles: Any, pins: Sequence[Any]) -> NeededWalls:
+    """As little wall as keeps each taut wire within `taut_tolerance` of the drawing, where there is room."""
+    apart_mm = JOINED * config.min_wall_width
+    held = _joined((turn for wire in channels.wires for turn in wire.turns), apart_mm)
+    for _ in range(ROUNDS):
+        walls = _standing(channels, config, obstacles, pins, held)
+        more = [piece for course in walls.laid for piece in _more(course, config.taut_tolerance, held)]
+        if not more:
+            break
+        held = _joined([*held, *more], apart_mm)
+    return walls
+
+
+def _standing(
+    channels: Channels, config: JigConfig, obstacles: Any, pins: Sequence[Any], held: tuple[Turn, ...]
+) -> NeededWalls:
+    with_room = config.support == "taut" and config.room > 0
+    free = free_sides(channels, held, config.room) if with_room else None
+    polygons, dropped = wall_polygons(channels, config, obstacles, held, free)
+    laid = courses(channels, [*(polygon for polygon, _ in polygons), *pins])
+    return NeededWalls(tuple(polygons), dropped, held, laid)
+
+
+def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
+    """A piece of wall for each stretch that strays, where it strays furthest; none where it has all."""
+    strays = np.concatenate([[False], course.off_mm > tolerance_mm, [False]])
+    starts, ends = (np.flatnonzero(np.diff(strays.astype(int)) == step) for step in (1, -1))
+    for a, b in zip(starts, ends, strict=True):
+        worst = int(a + course.off_mm[a:b].argmax())
+        at_mm, side = float(course.at_mm[worst]), _side(course, worst)
+        for length_mm in PIECES_MM:
+            low, high = max(0.0, at_mm - length_mm / 2), min(float(course.at_mm[-1]), at_mm + length_mm / 2)
+            piece = Turn(course.wire, low, high, side, 0.0, stretch=True)
+            if not _planned(piece, held):
+                yield piece
+                break
+
+
+def _side(course: Course, place: int) -> Side:
+    """To which side of the drawn wire the taut one strays there."""
+    point = course.drawn[place]
+    before, after = course.drawn[max(place - 1, 0)], course.drawn[min(place + 1, len(course.drawn) - 1)]
+    along = after - before
+    start, end = course.taut[:-1], course.taut[1:]
+    if not len(start):
+        start = end = course.taut
+    way = end - start
+    share = np.clip(((point - start) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-12), 0, 1)
+    feet = start + share[:, None] * way
+    # Of all places of the taut wire the one that lies as far away as was measured.
+    apart = np.linalg.norm(feet - point, axis=1)
+    foot = feet[int(np.abs(apart - course.off_mm[place]).argmin())] - point
+    return "left" if along[0] * foot[1] - along[1] * foot[0] > 0 else "right"
+
+
+def _planned(piece: Turn, held: Iterable[Turn]) -> bool:
+    """Whether a wall is planned all along there already."""
+    return any(
+        (span.wire, span.inside) == (piece.wire, piece.inside)
+        and span.start_mm <= piece.start_mm + SAME_MM
+        and piece.end_mm - SAME_MM <= span.end_mm
+        for span in held
+    )
+
+
+def _joined(spans: Iterable[Turn], apart_mm: float) -> tuple[Turn, ...]:
+    """Spans of one side that overlap or come within `apart_mm` are one."""
+    joined: list[Turn] = []
+    for span in sorted(spans, key=lambda span: (span.wire, span.inside, span.start_mm)):
+        last = joined[-1] if joined else None
+        near = last and (last.wire, last.inside) == (span.wire, span.inside)
+        if last and near and span.start_mm - last.end_mm <= apart_mm:
+            joined[-1] = replace(
+                last,
+                end_mm=max(last.end_mm, span.end_mm),
+                max_curvature_per_mm=max(last.max_curvature_per_mm, span.max_curvature_per_mm),
+                stretch=last.stretch and span.stretch,
+            )
+        else:
+            joined.append(span)
+    return tuple(joined)
