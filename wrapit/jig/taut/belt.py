@@ -17,8 +17,8 @@ def belt(walker: Walker, loop: list[int]) -> FloatArray:
     """The shortest loop (m, 2), first point = last, in a closed walk: first triangle = last, nothing undone.
 
     A way that goes round several times is drawn onto the loop in its first round and leaves it in its last.
-    What repeats itself after one round, bend for bend, is the loop: it is straight or held at every point, and
-    there is no other such in its class.
+    What repeats itself after one round, bend for bend, is the loop: it is straight or held at every point,
+    and there is no other such in its class.
     """
     once = walker.portals(loop)
     x = sum(walker.xs[corner] for corner in walker.corners[loop[0]]) / 3

@@ -12,10 +12,10 @@ MOST_SAMPLES = 4000
 
 
 def deviations(drawn: FloatArray, taut: FloatArray) -> FloatArray:
-    """How far from each drawn vertex (n, 2), at equal steps, the taut wire (m, 2) passes: (n,) in mm.
+    """How far from each drawn vertex (n, 2), at equal steps, the taut wire (m, 2) passes: (n,), mm.
 
     Each vertex is matched with a place of the taut wire so that places keep the order of the vertices and the
-    sum of squared distances is least. Where the wire passes by a second time is another place: it doesn't count.
+    sum of squared distances is least. Where the wire passes by again is another place: it doesn't count.
     A loop that was pulled straight counts with its full height.
     """
     if len(taut) == 1 or not np.any(taut != taut[0]):
@@ -29,7 +29,7 @@ def deviations(drawn: FloatArray, taut: FloatArray) -> FloatArray:
 
 
 def largest_within(deviation: FloatArray, at_mm: FloatArray, intervals_mm: FloatArray) -> FloatArray:
-    """The largest deviation (k,) in each interval (k, 2) of the drawn wire; its vertices lie at `at_mm` (n,).
+    """The largest deviation (k,) in each interval (k, 2) of the drawn wire; vertices lie at `at_mm` (n,).
 
     Between vertices deviations are read linearly, so that an interval without a vertex has an answer too.
     """

@@ -16,7 +16,7 @@ from wrapit.jig.taut.sleeve import Walker, cyclic
 from wrapit.jig.taut.triangles import OUTSIDE, Triangles
 
 # Where a drawn path runs into an obstacle, or along its side, this much on both sides of the path is free all
-# the same: sampling takes paths up to 0.05 mm into walls. No hand follows a jig within a hundred times that.
+# the same: sampling takes paths up to 0.05 mm into walls. No hand follows a jig to a hundred times that.
 HAIR_MM = 1e-3
 # Points of a path are moved by this much, each in its own direction, so that none lies on a triangle's side
 # and no stretch along one: a ten-thousandth of the hair, a million times what doubles lose at 100 mm.
@@ -40,7 +40,8 @@ class FreeGround:
     def around(cls, obstacles: BaseGeometry, paths: Sequence[FloatArray]) -> FreeGround:
         """`obstacles`: polygons, mm, already grown by the wire's radius.
 
-        They give way by a hair to `paths`, (n, 2) each.
+        They give way by a hair to `paths`, (n, 2) each; a closed one repeats its first point here, or the
+        stretch that closes it is left without.
         """
         hairs = shapely.buffer([_line(path) for path in paths], HAIR_MM, quad_segs=2)
         everything = shapely.GeometryCollection([obstacles, *hairs])
