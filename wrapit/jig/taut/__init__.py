@@ -1,1 +1,1 @@
-"""The taut wire: the shape that a wire takes when it is pulled tight round walls, and how far that is from the drawing."""
+"""The taut wire: how a wire lies that is pulled tight round walls, and how far from the drawing."""

@@ -8,17 +8,17 @@ from wrapit.geometry import FloatArray
 from wrapit.jig.taut.funnel import NO_PORTAL, Bend, shortest
 from wrapit.jig.taut.sleeve import Portal, Walker
 
-# How many times round the sleeve a way is pulled to find the loop in its middle. Three are enough where the loop
-# turns one way; the others are for sleeves that wind to and fro.
+# How many times round the sleeve a way is pulled to find the loop in its middle. Three are enough where the
+# loop turns one way; the others are for sleeves that wind to and fro.
 ROUNDS = (3, 6, 24, 96)
 
 
 def belt(walker: Walker, loop: list[int]) -> FloatArray:
-    """The shortest loop (m, 2) in the closed walk `loop` (first triangle = last, nothing undone), first point = last.
+    """The shortest loop (m, 2), first point = last, in a closed walk: first triangle = last, nothing undone.
 
-    A way that goes round several times is drawn onto the loop by its second round and leaves it in its last but one.
-    What repeats itself after one round, bend for bend, is the loop: it is straight or held at every point, and
-    there is no other such in its class.
+    A way that goes round several times is drawn onto the loop in its first round and leaves it in its last.
+    What repeats itself after one round, bend for bend, is the loop: it is straight or held at every point,
+    and there is no other such in its class.
     """
     once = walker.portals(loop)
     x = sum(walker.xs[corner] for corner in walker.corners[loop[0]]) / 3
@@ -32,7 +32,7 @@ def belt(walker: Walker, loop: list[int]) -> FloatArray:
 
 
 def _repeated(way: list[Bend], period: int, middle: int) -> list[Bend]:
-    """One round of the way, and the bend that it begins with once more, from the last before the portal `middle`."""
+    """One round of the way, first bend = last, from the last bend before the portal `middle` that will do."""
     places = {(bend.portal, bend.point): place for place, bend in enumerate(way) if bend.portal != NO_PORTAL}
     before = [place for place, bend in enumerate(way) if NO_PORTAL < bend.portal <= middle]
     for place in reversed(before):

@@ -6,17 +6,17 @@ import numpy as np
 
 from wrapit.geometry import FloatArray, IntArray
 
-# Most points of the taut wire that drawn ones are matched with. Time and memory grow with their number times that
-# of the drawn points; the distance is taken to the wire between them, so that only the order depends on it.
+# Most points of the taut wire that drawn ones are matched with. Time and memory grow with their number times
+# that of the drawn points; the distance is taken to the wire between them: only the order depends on it.
 MOST_SAMPLES = 4000
 
 
 def deviations(drawn: FloatArray, taut: FloatArray) -> FloatArray:
-    """For each drawn vertex (n, 2), at equal steps along the wire, how far from it the taut wire (m, 2) passes, mm (n,).
+    """How far from each drawn vertex (n, 2), at equal steps, the taut wire (m, 2) passes: (n,), mm.
 
-    Each vertex is matched with a place of the taut wire so that places keep the order of the vertices and the sum of
-    squared distances is least. Where the wire passes by a second time is another place: it doesn't count. A loop that
-    was pulled straight counts with its full height.
+    Each vertex is matched with a place of the taut wire so that places keep the order of the vertices and the
+    sum of squared distances is least. Where the wire passes by again is another place: it doesn't count.
+    A loop that was pulled straight counts with its full height.
     """
     if len(taut) == 1 or not np.any(taut != taut[0]):
         return np.asarray(np.hypot(*(drawn - taut[0]).T))
@@ -29,7 +29,7 @@ def deviations(drawn: FloatArray, taut: FloatArray) -> FloatArray:
 
 
 def largest_within(deviation: FloatArray, at_mm: FloatArray, intervals_mm: FloatArray) -> FloatArray:
-    """The largest deviation (k,) in each interval (k, 2) of the drawn wire's length; `at_mm` (n,) is where vertices lie.
+    """The largest deviation (k,) in each interval (k, 2) of the drawn wire; vertices lie at `at_mm` (n,).
 
     Between vertices deviations are read linearly, so that an interval without a vertex has an answer too.
     """

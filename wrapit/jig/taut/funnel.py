@@ -26,9 +26,9 @@ def shortest(
 ) -> list[Bend]:
     """The shortest way from `start` through the portals in order to `goal`: both, and where it bends.
 
-    The funnel is what the last point settled (its apex) sees of the newest portal: two chains that bend away from
-    each other. Each point of the sleeve joins a chain once and leaves it once, so that time grows with the length
-    of the sleeve and no faster. A sleeve may overlap itself: only points of one funnel are ever compared.
+    The funnel is what the last point settled (its apex) sees of the newest portal: two chains that bend away
+    from each other. Each point of the sleeve joins a chain once and leaves it once, so that time grows with
+    the sleeve's length and no faster. A sleeve may overlap itself: only points of one funnel are compared.
     """
     settled = [start]
     left: deque[Bend] = deque()
@@ -46,7 +46,7 @@ def shortest(
 
 
 def _widen(settled: list[Bend], chain: deque[Bend], other: deque[Bend], new: Bend, side: float) -> None:
-    """`new` at the end of one chain of the funnel, `side` 1 for the left and -1 for the right; the apex may move."""
+    """`new` ends one chain of the funnel, `side` 1 for the left, -1 for the right; the apex may move."""
     while chain:
         before = chain[-2] if len(chain) > 1 else settled[-1]
         if side * _turn(before, chain[-1], new) > 0:

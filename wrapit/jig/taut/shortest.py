@@ -16,15 +16,15 @@ from wrapit.jig.taut.sleeve import Walker, cyclic
 from wrapit.jig.taut.triangles import OUTSIDE, Triangles
 
 # Where a drawn path runs into an obstacle, or along its side, this much on both sides of the path is free all
-# the same: sampling takes paths up to 0.05 mm into walls. A hundred times less than a wire follows its jig by.
+# the same: sampling takes paths up to 0.05 mm into walls. No hand follows a jig to a hundred times that.
 HAIR_MM = 1e-3
-# Points of a path are moved by this much, each in its own direction, so that none lies on a triangle's side and no
-# stretch along one: a ten-thousandth of the hair, a million times what doubles lose at 100 mm.
+# Points of a path are moved by this much, each in its own direction, so that none lies on a triangle's side
+# and no stretch along one: a ten-thousandth of the hair, a million times what doubles lose at 100 mm.
 JOG_MM = 1e-7
 # Each is turned by the golden angle from the one before, so that neighbours never move alike.
 JOG_TURN_RAD = np.pi * (3 - np.sqrt(5))
-# Ground around everything, as a share of its size and in mm: a taut wire never leaves the convex hull of obstacles
-# and path, so any will do; the triangles at the edge are the fatter for it.
+# Ground around everything, as a share of its size and in mm: a taut wire never leaves the convex hull of
+# obstacles and path, so any will do; the triangles at the edge are the fatter for it.
 MARGIN = 0.25
 MARGIN_MM = 1.0
 
@@ -40,7 +40,8 @@ class FreeGround:
     def around(cls, obstacles: BaseGeometry, paths: Sequence[FloatArray]) -> FreeGround:
         """`obstacles`: polygons, mm, already grown by the wire's radius.
 
-        They give way by a hair to `paths`, (n, 2) each.
+        They give way by a hair to `paths`, (n, 2) each; a closed one repeats its first point here, or the
+        stretch that closes it is left without.
         """
         hairs = shapely.buffer([_line(path) for path in paths], HAIR_MM, quad_segs=2)
         everything = shapely.GeometryCollection([obstacles, *hairs])
@@ -56,9 +57,9 @@ class FreeGround:
     def pulled(self, path: FloatArray, closed: bool = False) -> FloatArray:
         """`path` (n, 2), pulled taut: the shortest path (m, 2) homotopic to it, in mm.
 
-        Its ends stay; every other point is a corner of an obstacle. Where `closed`, the path's end joins its start
-        (given twice or not) and nothing is held but by obstacles: the shortest loop, its last point the first again,
-        which is where it passes the path's own start; a single point (1, 2) if no obstacle holds it.
+        Its ends stay; every other point is a corner of an obstacle. Where `closed`, the path's end joins its
+        start (given twice or not) and nothing is held but by obstacles: the shortest loop, its last point the
+        first again, where it passes the path's own start; a single point (1, 2) if no obstacle holds it.
 
         Raises `ValueError` where the path leaves the ground, which one that was given to `around` never does.
         """
@@ -71,7 +72,7 @@ class FreeGround:
             raise ValueError(f"the path starts outside of the free ground, at {whole[0]} mm")
         passed = self.walker.walk(first, jogged)
         if closed:
-            loop, _ = cyclic(passed)
+            loop = cyclic(passed)
             return belt(self.walker, loop) if len(loop) > 1 else whole[:1]
         (ax, ay), (bx, by) = whole[0].tolist(), whole[-1].tolist()
         portals = self.walker.portals(passed)

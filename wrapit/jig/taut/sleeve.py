@@ -1,8 +1,9 @@
-"""The sleeve of a path: which triangles it passes, in order, once every step that it takes back is left out."""
+"""The sleeve of a path: which triangles it passes, in order, with every step that it takes back left out."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 from wrapit.geometry import FloatArray
 from wrapit.jig.taut.triangles import OUTSIDE, Triangles
@@ -47,14 +48,14 @@ class Walker:
         )
 
     def walk(self, first: int, path: FloatArray) -> list[int]:
-        """The triangles along `path` (n, 2) from `first`, which holds its first point; steps undone are left out.
+        """The triangles along `path` (n, 2) from `first`, which holds its first point, without steps undone.
 
         Raises `ValueError` where the path leaves the ground.
         """
         passed = [first]
         here = first
         points = path.tolist()
-        for (ax, ay), (bx, by) in zip(points, points[1:], strict=False):
+        for (ax, ay), (bx, by) in pairwise(points):
             while True:
                 (a0, b0, c0), (a1, b1, c1), (a2, b2, c2) = self.sides[here]
                 if (
@@ -93,16 +94,16 @@ class Walker:
     def portals(self, passed: list[int]) -> list[Portal]:
         """What lies between one triangle and the next."""
         found = []
-        for here, there in zip(passed, passed[1:], strict=False):
+        for here, there in pairwise(passed):
             side = self.neighbours[here].index(there)
             right, left = self.corners[here][side], self.corners[here][(side + 1) % 3]
             found.append(Portal(left, right))
         return found
 
 
-def cyclic(passed: list[int]) -> tuple[list[int], int]:
-    """A closed walk (first triangle = last) without the way out to a loop and the same way back, and the way's length."""
+def cyclic(passed: list[int]) -> list[int]:
+    """A closed walk (first triangle = last) without the way out to a loop and the same way back."""
     way = 0
     while len(passed) - 2 * way > 2 and passed[way + 1] == passed[-way - 2]:
         way += 1
-    return passed[way : len(passed) - way], way
+    return passed[way : len(passed) - way]

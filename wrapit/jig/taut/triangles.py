@@ -44,7 +44,7 @@ class Triangles:
         return cls(locked(points), corners, neighbours)
 
     def holding(self, place: FloatArray) -> int:
-        """The triangle that `place` (2,) lies in, or deepest in where rounding leaves a doubt; OUTSIDE if none."""
+        """The triangle that `place` (2,) lies deepest in; OUTSIDE if it lies in none."""
         start = self.points[self.corners] - place
         end = np.roll(start, -1, axis=1)
         along = np.hypot(*(end - start).transpose(2, 0, 1))
