@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,10 @@ _OUTLIER = 0.25
 # fourteenth. With a half instead, 109 chains come out right.
 _MOST = 8
 _GAIN = 0.93
+# When does no further corner help? Where a second one doesn't, and one alone misses by less than so many times
+# what is good: most of what is tried is one corner that is known already, at 1.3 times. Of the 21 chains that
+# are found on 160 pictures, the two whose second corner adds nothing miss by more than six times there.
+_ALONE = 2.0
 # What does a pen draw? No side shorter than this, in stroke widths (0.9 does as well), no corner where
 # the chain starts, and none that folds back: that is a tip.
 _SHORTEST = 0.7
@@ -46,7 +51,7 @@ class Missed:
     share: FloatArray
     away: FloatArray
 
-    @property
+    @cached_property
     def rms(self) -> float:
         """Root mean square, with outliers (other ink) bounded."""
         return float(np.sqrt(np.mean(np.clip(self.outside, -_OUTLIER, _OUTLIER) ** 2)))
@@ -156,7 +161,7 @@ def chain_of(middle: FloatArray, edge: FloatArray, width_px: float, good: float)
         if seen.rms < good:
             return _pruned(chain, edge, width_px, good)
         stalled = 0 if seen.rms < _GAIN * best else stalled + 1
-        if stalled > 1:
+        if stalled > 1 or (stalled and len(chain) == 4 and seen.rms < _ALONE * good):
             return None
         best = min(best, seen.rms)
     return None
