@@ -27,9 +27,9 @@ _OUTLIER = 0.25
 # fourteenth. With a half instead, 109 chains come out right.
 _MOST = 8
 _GAIN = 0.93
-# When does no further corner help? Where a second one doesn't, and one alone misses by less than so many times
-# what is good: most of what is tried is one corner that is known already, at 1.3 times. Of the 21 chains that
-# are found on 160 pictures, the two whose second corner adds nothing miss by more than six times there.
+# When does no further corner help? Where a second one doesn't, and one alone misses by less than so many
+# times what is good: most of what is tried is one corner that is known already, at 1.3 times. Of 21 chains
+# that are found on 160 pictures, the two whose second corner adds nothing miss by more than six times there.
 _ALONE = 2.0
 # What does a pen draw? No side shorter than this, in stroke widths (0.9 does as well), no corner where
 # the chain starts, and none that folds back: that is a tip.
