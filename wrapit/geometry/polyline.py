@@ -9,7 +9,10 @@ from wrapit.geometry.arrays import FloatArray
 
 def steps(points: FloatArray) -> FloatArray:
     """Distances (…, n - 1) between neighbours of points (…, n, 2)."""
-    return np.asarray(np.linalg.norm(np.diff(points, axis=-2), axis=-1))
+    apart = points[..., 1:, :] - points[..., :-1, :]
+    apart *= apart
+    # A sum over an axis of two takes several times as long.
+    return np.asarray(np.sqrt(apart[..., 0] + apart[..., 1]))
 
 
 def total_length(points: FloatArray) -> float:

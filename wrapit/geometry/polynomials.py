@@ -35,9 +35,11 @@ def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray
     """Least-squares coefficients (degree + 1, 2), lowest first."""
     scale = max(float(np.abs(along).max()), 1e-9)
     powers = np.ones((degree + 1, len(along)))
+    share = along / scale
     for k in range(degree):
-        np.multiply(powers[k], along / scale, out=powers[k + 1])
-    normal = powers @ powers.T + 1e-12 * np.eye(degree + 1)
+        np.multiply(powers[k], share, out=powers[k + 1])
+    normal = powers @ powers.T
+    normal.flat[:: degree + 2] += 1e-12
     solution = np.linalg.solve(normal, powers @ points)
     return solution / scale ** np.arange(degree + 1)[:, None]
 

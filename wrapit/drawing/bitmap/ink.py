@@ -133,7 +133,7 @@ def _background(grey: GreyImage) -> tuple[NDArray[np.float32], bool]:
     padded = np.pad(grey, ((0, rows * _BLOCK_PX - height), (0, columns * _BLOCK_PX - width)), mode="edge")
     # The fourth highest of sixteen pixels of each block: neither ink nor noise counts.
     small = padded[2::4, 2::4].reshape(rows, 4, columns, 4).transpose(0, 2, 1, 3).reshape(rows, columns, 16)
-    bright = np.sort(small)[..., -4].astype(np.float32)
+    bright = np.partition(small, -4)[..., -4].astype(np.float32)
     coarse = gaussian_filter(maximum_filter(bright, 5), 2.0, mode="nearest")
     spread = float(coarse.max() - coarse.min())
     if spread <= _SHADED * max(float(coarse.max()) - float(grey.min()), 1.0):

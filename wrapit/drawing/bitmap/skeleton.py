@@ -68,7 +68,8 @@ def _rim(mask: BoolImage) -> FloatArray:
     touching[:-1] |= padded[1:]
     touching[:, 1:] |= padded[:, :-1]
     touching[:, :-1] |= padded[:, 1:]
-    y, x = np.nonzero(touching & ~padded)
+    # Places in one row are found several times as fast as pairs of them.
+    y, x = np.divmod(np.flatnonzero(touching > padded), padded.shape[1])
     return np.column_stack([x - 1.0, y - 1.0])
 
 

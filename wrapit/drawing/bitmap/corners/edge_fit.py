@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,10 @@ _OUTLIER = 0.25
 # fourteenth. With a half instead, 109 chains come out right.
 _MOST = 8
 _GAIN = 0.93
+# When does no further corner help? Where a second one doesn't, and one alone misses by less than so many
+# times what is good: most of what is tried is one corner that is known already, at 1.3 times. Of 21 chains
+# that are found on 160 pictures, the two whose second corner adds nothing miss by more than six times there.
+_ALONE = 2.0
 # What does a pen draw? No side shorter than this, in stroke widths (0.9 does as well), no corner where
 # the chain starts, and none that folds back: that is a tip.
 _SHORTEST = 0.7
@@ -46,7 +51,7 @@ class Missed:
     share: FloatArray
     away: FloatArray
 
-    @property
+    @cached_property
     def rms(self) -> float:
         """Root mean square, with outliers (other ink) bounded."""
         return float(np.sqrt(np.mean(np.clip(self.outside, -_OUTLIER, _OUTLIER) ** 2)))
@@ -57,15 +62,20 @@ def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
 
     Outside of a corner anything between a bevel and a mitre is right.
     """
-    start, course = chain[:-1], np.diff(chain, axis=0)
-    squared = np.maximum((course**2).sum(axis=1), 1e-9)
-    from_start = edge[:, None] - start
-    share = np.clip((from_start * course).sum(axis=2) / squared, 0.0, 1.0)
-    gap = from_start - share[:, :, None] * course
-    distance = np.sqrt((gap**2).sum(axis=2))
+    course = chain[1:] - chain[:-1]
+    # In x and y apart (n, m - 1): sums over an axis of two take several times as long.
+    (course_x, course_y), (x, y) = course.T, (edge[:, k, None] - chain[:-1, k] for k in (0, 1))
+    share = x * course_x
+    share += y * course_y
+    share /= np.maximum(course_x**2 + course_y**2, 1e-9)
+    np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
+    x -= share * course_x
+    y -= share * course_y
+    squared = x * x + y * y
     rows = np.arange(len(edge))
-    side = np.argmin(distance, axis=1)
-    share, gap, distance = share[rows, side], gap[rows, side], distance[rows, side]
+    side = np.argmin(squared, axis=1)
+    share, distance = share[rows, side], np.sqrt(squared[rows, side])
+    gap = np.column_stack([x[rows, side], y[rows, side]])
     outside = distance / width_px - 0.5
     corner = side + (share >= 1.0)
     at_corner = ((share <= 0.0) | (share >= 1.0)) & (corner > 0) & (corner < len(chain) - 1)
@@ -151,7 +161,7 @@ def chain_of(middle: FloatArray, edge: FloatArray, width_px: float, good: float)
         if seen.rms < good:
             return _pruned(chain, edge, width_px, good)
         stalled = 0 if seen.rms < _GAIN * best else stalled + 1
-        if stalled > 1:
+        if stalled > 1 or (stalled and len(chain) == 4 and seen.rms < _ALONE * good):
             return None
         best = min(best, seen.rms)
     return None

@@ -88,10 +88,9 @@ def edge_points(ink: Ink, middle: FloatArray, width_px: float) -> FloatArray:
     normal = np.column_stack([-course[:, 1], course[:, 0]])
     # Every other point tells as much.
     middle, normal, course = middle[::2], normal[::2], course[::2]
-    found = []
-    for aslant in _LOOKS:
-        ray = math.cos(aslant) * normal + math.sin(aslant) * course
-        against, along = edges(ink, middle, ray, _OUT * width_px, max(0.5, width_px / 14))
-        found += [middle - against[:, None] * ray, middle + along[:, None] * ray]
-    points = np.concatenate(found)
+    rays = np.stack([math.cos(aslant) * normal + math.sin(aslant) * course for aslant in _LOOKS])
+    origins = np.concatenate([middle] * len(_LOOKS))
+    far = edges(ink, origins, rays.reshape(-1, 2), _OUT * width_px, max(0.5, width_px / 14))
+    against, along = (side.reshape(len(_LOOKS), -1, 1) * rays for side in far)
+    points = np.stack([middle - against, middle + along], axis=1).reshape(-1, 2)
     return points[np.isfinite(points).all(axis=1)]

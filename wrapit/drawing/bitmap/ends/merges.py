@@ -93,11 +93,11 @@ def find_merge(arms: list[Arm], ink: Ink) -> Merge | None:
     a, b = (stem + 1) % 3, (stem + 2) % 3
     if apart[stem] > _MOST_RAD or min(apart[a], apart[b]) < _BACK_RAD:
         return None
-    found = [_merged(arms, stem, other, single, ink) for other, single in ((a, b), (b, a))]
-    known = [merge for merge in found if merge is not None]
-    if len(known) < 2:
+    first = _merged(arms, stem, a, b, ink)
+    second = None if first is None else _merged(arms, stem, b, a, ink)
+    if first is None or second is None:
         return None
-    best = max(known, key=lambda merge: merge.departs)
+    best = max(first, second, key=lambda merge: merge.departs)
     return best if best.turn < _ACUTE_RAD else None
 
 

@@ -36,9 +36,9 @@ def is_hard(ink: Ink) -> bool:
     # Every third row and column tells enough; of large pictures, some hundreds.
     every = max(3, min(ink.mask.shape) // _LINES)
     for mask, grey in ((ink.mask[::every], ink.grey[::every]), (ink.mask.T[::every], ink.grey.T[::every])):
-        row, column = np.nonzero(_changes(mask, 1))
-        before, after = grey[row, column].astype(np.int16), grey[row, column + 1]
-        steps += len(row)
+        changes = _changes(np.ascontiguousarray(mask), 1)
+        before, after = grey[:, :-1][changes].astype(np.int16), grey[:, 1:][changes]
+        steps += len(before)
         full += int(np.count_nonzero(np.abs(before - after) > limit))
     return full > _HARD * steps
 

@@ -7,6 +7,7 @@ longer than one of one million.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,7 @@ class Cells:
     stroke: float
     look: int
 
-    @property
+    @cached_property
     def ink(self) -> BoolCells:
         """Where something is clearly darker than what surrounds it."""
         return self.level < _INK * self.paper

@@ -57,6 +57,8 @@ def find_ground(cells: Cells) -> Ground | None:
     """The ground around the paper; nothing where the paper fills the picture."""
     from scipy.ndimage import binary_dilation, binary_erosion, label
 
+    if _is_even(cells):
+        return None
     flat = _steps(cells, 3) < _STEP
     if flat.all():
         return None
@@ -84,6 +86,8 @@ def edge_of_light(cells: Cells) -> BoolCells:
     """The cells of a long step of the paper's level, as a shadow's edge is; none where there is no such."""
     from scipy.ndimage import find_objects, label
 
+    if _is_even(cells):
+        return np.zeros(cells.paper.shape, dtype=np.bool_)
     steps = _steps(cells, 3) >= _STEP
     if not steps.any():
         return steps
@@ -103,8 +107,16 @@ def _steps(cells: Cells, reach: int) -> NDArray[np.float32]:
     """By how much the paper's level changes within so many cells, as a logarithm."""
     from scipy.ndimage import maximum_filter, minimum_filter
 
-    level = np.log(cells.paper)
-    return maximum_filter(level, reach) - minimum_filter(level, reach)
+    # Filters take a quarter of the time on bytes, which the paper's levels are.
+    level = cells.paper.astype(np.uint8)
+    highest, lowest = maximum_filter(level, reach), minimum_filter(level, reach)
+    steps: NDArray[np.float32] = np.log(highest, dtype=np.float32) - np.log(lowest, dtype=np.float32)
+    return steps
+
+
+def _is_even(cells: Cells) -> bool:
+    """Whether the paper's level changes by less than a step all over the picture."""
+    return bool(np.log(cells.paper.max() / cells.paper.min()) < _STEP)
 
 
 def _paper_region(cells: Cells, regions: NDArray[np.int32], count: int) -> int | None:

@@ -41,16 +41,22 @@ def find_edges(cells: Cells) -> Edges:
     short, away = min(ink.shape), depth(ink.shape)
     edges, holes, run_into = (np.zeros_like(ink) for _ in range(3))
     for number, box in enumerate(find_objects(labels), 1):
+        at_side = any(side.start == 0 or side.stop == n for side, n in zip(box, ink.shape, strict=True))
+        # The box alone excludes nearly all pieces.
+        if not at_side and not _is_small(box, short):
+            continue
         piece = labels[box] == number
         deepest = int(away[box][piece].max()) + 1
-        if int(away[box][piece].min()) == 0:
+        if at_side:
             along = int((piece & (away[box] == 0)).sum())
             if deepest <= _DEEPEST * short and along >= deepest:
                 edges[box] |= piece
             elif _is_deep_along_a_side(labels == number, cells.stroke):
                 run_into[box] |= piece
-        elif deepest <= _HOLE_DEPTH * short and _is_hole(piece, short, cells.stroke):
+        elif deepest <= _HOLE_DEPTH * short and _is_hole(piece, cells.stroke):
             holes[box] |= piece
+    if not edges.any() and not holes.any():
+        return Edges(edges, holes, run_into)
     rest = ink & ~edges & ~holes
     if not _is_large(rest):
         edges[:], holes[:] = False, False
@@ -67,11 +73,16 @@ def _is_large(ink: BoolCells) -> bool:
     return len(rows) > 0 and max(np.ptp(rows), np.ptp(columns)) > _LEAST_LEFT * max(ink.shape)
 
 
-def _is_hole(piece: BoolCells, short: int, stroke: float) -> bool:
+def _is_small(box: tuple[slice, slice], short: int) -> bool:
+    """Whether a piece in this box is no larger than a hole."""
+    return bool(max(side.stop - side.start for side in box) <= _HOLE_SIZE * short + 2)
+
+
+def _is_hole(piece: BoolCells, stroke: float) -> bool:
     height, width = piece.shape
     size = max(height, width)
     round_enough = min(height, width) > 0.75 * size and piece.mean() > _DISC
-    return bool(round_enough and size <= _HOLE_SIZE * short + 2 and size > _THICKER * stroke)
+    return bool(round_enough and size > _THICKER * stroke)
 
 
 def _is_deep_along_a_side(piece: BoolCells, stroke: float) -> bool:
