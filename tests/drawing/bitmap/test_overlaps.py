@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -61,6 +62,24 @@ def test_a_stretch_that_two_strokes_share_is_one_segment(traced, width, shared, 
     away = np.column_stack([half + (140 - half) * t, 70 * t * t])
     curves = [CENTRE + np.vstack([(away * [-1, up])[::-1], away * [1, up]]) for up in (-1, 1)]
     drawing, _ = traced([turned(curve, turn) for curve in curves], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
+
+
+@few
+@given(
+    st.floats(1.2, 3.0),
+    st.lists(st.floats(math.radians(28), math.radians(75)), min_size=4, max_size=4),
+    st.floats(6, 24),
+    TURNS,
+)
+def test_two_joints_a_few_widths_apart_are_no_crossing(traced, apart, turns, width, turn):
+    half, far = apart * width / 2, 7 * width
+    arms = [
+        CENTRE + np.array([[side * half, 0], [side * (half + far * math.cos(a)), up * far * math.sin(a)]])
+        for a, (side, up) in zip(turns, itertools.product((-1, 1), (-1, 1)), strict=True)
+    ]
+    stretch = CENTRE + np.array([[-half, 0], [half, 0]])
+    drawing, _ = traced([turned(curve, turn) for curve in (stretch, *arms)], width)
     assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
 
 
