@@ -34,9 +34,9 @@ _WIDEST = 1.6
 _FLAT = 0.1
 _END = 1.5
 _OPEN = 0.5
-# What is one stroke between two joints, not a crossing? Strokes that cross are within 0.15 of each other over at
-# most 0.25 of the length over which they are within 0.6, as they part evenly; of 14 stretches of one to two
-# widths between joints that were taken for crossings, over 0.67 to 0.82.
+# What is one stroke between two joints, not a crossing? Strokes that cross are within 0.15 of each other over
+# at most 0.25 of the length over which they are within 0.6, as they part evenly; of 14 stretches of one to
+# two widths between joints that were taken for crossings, over 0.67 to 0.82.
 _TOGETHER = 0.15
 _PARTED = 0.6
 _STILL = 0.45
