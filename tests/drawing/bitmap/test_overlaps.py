@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
@@ -14,6 +16,16 @@ from tests.drawing.bitmap.figures import ACROSS, CENTRE, SIZE_PX, TURNS, arc, fe
 from tests.drawing.generated import degrees, render
 from wrapit.config import TracingConfig
 from wrapit.drawing.stage import trace
+
+# How far (degrees) four strokes turn off the one between two joints, at either end of it.
+TWO_JOINTS = [
+    (30, 30, 30, 30),
+    (38, 38, 38, 38),
+    (45, 45, 45, 45),
+    (35, 50, 50, 35),
+    (50, 35, 50, 35),
+    (60, 60, 60, 60),
+]
 
 
 @few
@@ -61,6 +73,20 @@ def test_a_stretch_that_two_strokes_share_is_one_segment(traced, width, shared, 
     away = np.column_stack([half + (140 - half) * t, 70 * t * t])
     curves = [CENTRE + np.vstack([(away * [-1, up])[::-1], away * [1, up]]) for up in (-1, 1)]
     drawing, _ = traced([turned(curve, turn) for curve in curves], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
+
+
+@pytest.mark.parametrize("apart", [1.2, 1.4, 1.6, 1.8, 2.0])
+@pytest.mark.parametrize("turns", TWO_JOINTS)
+def test_two_joints_a_few_widths_apart_are_no_crossing(traced, apart, turns):
+    width = 18.0
+    half, far = apart * width / 2, 7 * width
+    arms = [
+        CENTRE + np.array([[side * half, 0], [side * (half + far * math.cos(a)), up * far * math.sin(a)]])
+        for a, (side, up) in zip(np.radians(turns), itertools.product((-1, 1), (-1, 1)), strict=True)
+    ]
+    stretch = CENTRE + np.array([[-half, 0], [half, 0]])
+    drawing, _ = traced([turned(curve, 0.4) for curve in (stretch, *arms)], width)
     assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
 
 
