@@ -43,13 +43,17 @@ def _split(
     stretch: list[slice | FloatArray | Line] = []
     start = 0
     for corner in corners:
-        stretch.append(corner.side or slice(start, corner.before))
+        stretch.append(slice(start, corner.before))
+        if corner.side is not None:
+            stretch.append(corner.side)
         start = corner.after
         if corner.sharp and corner.turn_rad >= corner_rad:
             parts.append((stretch, corner.points[0]))
             stretch = []
         else:
             stretch.append(corner.points)
+        if corner.last_side is not None:
+            stretch.append(corner.last_side)
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
     graph.corners |= set(nodes[1:-1])
