@@ -93,17 +93,33 @@ def _upright(moved: FloatArray, count: int) -> FloatArray:
     return np.vstack([moved[:count], moved[count:] - along])
 
 
-def curves_of(middle: FloatArray, edge: FloatArray, width_px: float, good: float) -> Curves | None:
+def curves_of(
+    middle: FloatArray, known: list[FloatArray], edge: FloatArray, width_px: float, good: float
+) -> Curves | None:
     """The chain of curved sides with the fewest corners that fits the edges, from end to end of a middle line.
 
-    None where the edges are missed by more than `good` (in stroke widths), or no pen draws such a chain.
+    Corners are added where the middle line is farthest from the chain: to those `known`, then to none. None
+    where the edges are missed by more than `good` (in stroke widths), or no pen draws such a chain.
     """
-    chain = Curves(middle[[0, -1]], np.zeros((1, 2)))
-    for _ in range(_MOST):
+    for start in ([*known], []) if known else ([],):
+        corners = np.vstack([middle[:1], *start, middle[-1:]])
+        chain = _grown(Curves(corners, np.zeros((len(corners) - 1, 2))), middle, edge, width_px, good)
+        if chain is not None and _plausible(chain, width_px):
+            return chain
+    return None
+
+
+def _grown(
+    chain: Curves, middle: FloatArray, edge: FloatArray, width_px: float, good: float
+) -> Curves | None:
+    if len(chain.corners) > 2:
+        chain, seen = fitted_curves(chain, edge, width_px)
+        if seen.rms < good:
+            return _pruned(chain, edge, width_px, good)
+    while len(chain.corners) < _MOST + 2:
         chain, seen = fitted_curves(_with_farthest(chain, middle, width_px), edge, width_px)
         if seen.rms < good:
-            chain = _pruned(chain, edge, width_px, good)
-            return chain if _plausible(chain, width_px) else None
+            return _pruned(chain, edge, width_px, good)
     return None
 
 

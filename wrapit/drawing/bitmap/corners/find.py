@@ -91,11 +91,7 @@ def _between_curves(
     """The corners of each place that only a chain of curved sides explains."""
     spans = [(corner.before, corner.after, corner.points) for corner in found]
     taken = [(group[0].before, group[-1].after) for group in groups]
-    chains = [
-        chain
-        for stretch in stretches
-        for chain in curved_chains(line, ink, width_px, stretch, limits, tops, spans, taken)
-    ]
+    chains = curved_chains(line, ink, width_px, stretches, limits, tops, spans, taken)
     return [group for chain in chains if (group := _of_curves(ink, chain))]
 
 

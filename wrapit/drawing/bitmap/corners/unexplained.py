@@ -18,7 +18,8 @@ from wrapit.geometry.polyline import lengths
 # In stroke widths.
 # What can't be explained? A stretch of this length whose edges are missed by more (root mean square).
 _OVER = 0.8
-_MISSED = 0.06
+_MISSED = 0.045
+_MISSED_PX = 0.45
 # How far around are sides taken from? Where the chain ends, the middle line must be right.
 _AROUND = 1.75
 _UNSURE = 0.03
@@ -49,19 +50,20 @@ def curved_chains(
     line: Line,
     ink: Ink,
     width_px: float,
-    stretch: tuple[int, int],
+    stretches: list[tuple[int, int]],
     limits: tuple[int, int],
     tops: NDArray[np.intp],
     spans: list[tuple[int, int, FloatArray]],
     taken: list[tuple[int, int]],
 ) -> list[CurvedChain]:
-    """The chains that explain what a stretch of a line, with the corners known so far, does not.
+    """The chains that explain what stretches of a line, with the corners known so far, do not.
 
     `spans` are the points before and after each known corner, and what lies between; `taken` are stretches
     that need no other corners.
     """
     found = []
-    for low, high in _widened(_windows(line, ink, stretch, tops, spans, width_px), line, limits, spans, width_px):
+    windows = [w for stretch in stretches for w in _windows(line, ink, stretch, tops, spans, width_px)]
+    for low, high in _widened(windows, line, limits, tops, spans, width_px):
         if any(low < after and before < high for before, after in taken):
             low, high = _beside(low, high, taken)
         chain = _chain(line, ink, (low, high), limits, spans)
@@ -84,6 +86,7 @@ def _widened(
     windows: list[tuple[int, int]],
     line: Line,
     limits: tuple[int, int],
+    tops: NDArray[np.intp],
     spans: list[tuple[int, int, FloatArray]],
     width_px: float,
 ) -> list[tuple[int, int]]:
@@ -91,7 +94,8 @@ def _widened(
     around = round(_AROUND * width_px * (len(line.points) - 1) / line.length)
     wide: list[tuple[int, int]] = []
     for k, (low, high) in enumerate(windows):
-        low, high = low - around, high + around
+        low = min([low, *tops[(tops > low - around) & (tops < low)]]) - around
+        high = max([high, *tops[(tops > high) & (tops < high + around)]]) + around
         for before, after, _ in reversed(spans):
             if before < low <= after + around // 2:
                 low = min(low, before - around // 2)
@@ -141,7 +145,8 @@ def _windows(
     return [
         (int(a) + start, int(b) + start)
         for a, b in parts
-        if mean[a : b + 1].max() > _MISSED**2 and ((tops >= a + start - 8) & (tops <= b + start + 8)).any()
+        if mean[a : b + 1].max() > max(_MISSED, _MISSED_PX / width_px) ** 2
+        and ((tops >= a + start - 8) & (tops <= b + start + 8)).any()
     ]
 
 
@@ -176,7 +181,8 @@ def _chain(
     edge, _ = edges_from(ink, middle, width_px)
     edge = edge[_beside_line(middle, edge, width_px)]
     plain = missed(_explained(line, first, last, spans), edge, width_px)
-    curves = curves_of(middle, edge, width_px, good_enough(width_px, plain.rms))
+    known = [points[0] for before, after, points in spans if first < before <= after < last and len(points) == 1]
+    curves = curves_of(middle, known, edge, width_px, good_enough(width_px, plain.rms))
     return None if curves is None else CurvedChain(curves, first + 1, last, width_px)
 
 
