@@ -17,6 +17,10 @@ from wrapit.geometry import FloatArray, unit
 _FACETS = 6
 # How many corners has a chain? Those that stand within 3 widths of each other; more are a scribble.
 _MOST = 5
+# Which corners can a chain do without? Those without which it fits as well as grey edges can be seen (in
+# stroke widths), or hardly worse.
+_WELL = 0.01
+_LOSS = 1.5
 # What does a pen draw? No side shorter than this, in stroke widths, and none that bulges by more than a
 # third of its chord: that is a loop.
 _SHORTEST = 0.7
@@ -115,11 +119,11 @@ def _grown(
     if len(chain.corners) > 2:
         chain, seen = fitted_curves(chain, edge, width_px)
         if seen.rms < good:
-            return _pruned(chain, edge, width_px, good)
+            return _pruned(chain, edge, width_px, min(good, max(_WELL, _LOSS * seen.rms)))
     while len(chain.corners) < _MOST + 2:
         chain, seen = fitted_curves(_with_farthest(chain, middle, width_px), edge, width_px)
         if seen.rms < good:
-            return _pruned(chain, edge, width_px, good)
+            return _pruned(chain, edge, width_px, min(good, max(_WELL, _LOSS * seen.rms)))
     return None
 
 

@@ -72,13 +72,8 @@ def chain_between(line: Line, ink: Ink, start: int, end: int, known: list[FloatA
     best = plain.rms
     if known:
         best = min(best, missed(np.concatenate([middle[:1], *known, middle[-1:]]), edge, width_px).rms)
-    chain = chain_of(middle, edge, width_px, good_enough(width_px, best))
+    chain = chain_of(middle, edge, width_px, min(max(_GOOD, _GOOD_PX / width_px), _BETTER * best))
     return None if chain is None else Chain(chain, first + 1, last, width_px)
-
-
-def good_enough(width_px: float, known: float) -> float:
-    """By how much a chain may miss the edges, in stroke widths, where what is known misses them by so much."""
-    return min(max(_GOOD, _GOOD_PX / width_px), _BETTER * known)
 
 
 def clean_from(line: Line, at: int, sign: int) -> int | None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.corners.curved_sides import Curves, curves_of
 from wrapit.drawing.bitmap.corners.edge_fit import missed
-from wrapit.drawing.bitmap.corners.short_sides import clean_from, edges_from, good_enough
+from wrapit.drawing.bitmap.corners.short_sides import clean_from, edges_from
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
@@ -20,6 +20,10 @@ from wrapit.geometry.polyline import lengths
 _OVER = 0.8
 _MISSED = 0.045
 _MISSED_PX = 0.45
+# When does a chain fit? Ink beyond its ends is left out, so true ones fit to half of what straight chains do.
+_GOOD = 0.022
+_GOOD_PX = 0.2
+_BETTER = 0.7
 # How far around are sides taken from? Where the chain ends, the middle line must be right.
 _AROUND = 1.75
 _UNSURE = 0.03
@@ -182,7 +186,7 @@ def _chain(
     edge = edge[_beside_line(middle, edge, width_px)]
     plain = missed(_explained(line, first, last, spans), edge, width_px)
     known = [points[0] for before, after, points in spans if first < before <= after < last and len(points) == 1]
-    curves = curves_of(middle, known, edge, width_px, good_enough(width_px, plain.rms))
+    curves = curves_of(middle, known, edge, width_px, min(max(_GOOD, _GOOD_PX / width_px), _BETTER * plain.rms))
     return None if curves is None else CurvedChain(curves, first + 1, last, width_px)
 
 
