@@ -10,19 +10,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.corners.edge_fit import Missed, farthest, missed, settled, slopes
+from wrapit.drawing.bitmap.corners.edge_fit import Missed, farthest, settled, slopes
 from wrapit.geometry import FloatArray, unit
 
-# How many facets has a side? At a radius of 1.5 widths six are 0.01 inside of a side two widths long.
-_FACETS = 6
-# How many corners has a chain? Those that stand within 3 widths of each other; more are a scribble.
+# In stroke widths. Measured on 120 strokes of 1 to 3 corners, 68 to 140 degrees, between arcs of radius 1 to 4
+# and length 1 to 2, 4 to 30 px wide, two in five with hard edges, of which 65 come out right (48 without).
+# How many facets has a side? At a radius of 1.5 four are 0.02 inside of a side two widths long; six find as many.
+_FACETS = 4
+# How many corners has a chain, and when is it given up? Where neither of two more lessens the misfit by a
+# tenth; giving up at the first that doesn't loses three of the 120.
 _MOST = 5
-# Which corners can a chain do without? Those without which it fits as well as grey edges can be seen (in
-# stroke widths), or hardly worse.
+_GAIN = 0.9
+# Which corners can a chain do without? Those without which it fits as well as grey edges can be seen, or hardly
+# worse: small steps lose their corners otherwise, as two bulging sides nearly do.
 _WELL = 0.01
 _LOSS = 1.5
-# What does a pen draw? No side shorter than this, in stroke widths, and none that bulges by more than a
-# third of its chord: that is a loop.
+# What does a pen draw? No side shorter than this, none that bulges by more than a third of its chord (that is a
+# loop), and no corner that folds back (that is a tip). As with straight sides; not varied alone.
 _SHORTEST = 0.7
 _LEAST_END = 0.5
 _BULGIEST = 0.35
@@ -116,14 +120,20 @@ def curves_of(
 def _grown(
     chain: Curves, middle: FloatArray, edge: FloatArray, width_px: float, good: float
 ) -> Curves | None:
+    """The chain with as many more corners as it needs to fit, and none it can do without; None if it never fits."""
     if len(chain.corners) > 2:
         chain, seen = fitted_curves(chain, edge, width_px)
         if seen.rms < good:
             return _pruned(chain, edge, width_px, min(good, max(_WELL, _LOSS * seen.rms)))
+    best, stalled = np.inf, 0
     while len(chain.corners) < _MOST + 2:
         chain, seen = fitted_curves(_with_farthest(chain, middle, width_px), edge, width_px)
         if seen.rms < good:
             return _pruned(chain, edge, width_px, min(good, max(_WELL, _LOSS * seen.rms)))
+        stalled = 0 if seen.rms < _GAIN * best else stalled + 1
+        if stalled > 1:
+            return None
+        best = min(best, seen.rms)
     return None
 
 

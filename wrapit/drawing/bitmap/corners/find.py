@@ -71,9 +71,9 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     if not len(most):
         return []
     apart = _apart(line, ink, width_px, _places(line, most, width_px), low, high)
-    groups = _crowded_groups(line, ink, turn, most, width_px, apart)
-    found = _in_order(groups, apart)
     stretches = crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px)
+    groups = _crowded_groups(line, ink, stretches, apart)
+    found = _in_order(groups, apart)
     curved = _between_curves(line, ink, width_px, stretches, (first, last), most, groups, found)
     return _in_order([*groups, *curved], apart) if curved else found
 
@@ -96,6 +96,7 @@ def _between_curves(
 
 
 def _of_curves(ink: Ink, chain: CurvedChain) -> list[Corner]:
+    """The corners between curved sides; none where one of them is a round bend, or none turns by enough."""
     found: list[Corner] = []
     curves = chain.curves
     for k, apex in enumerate(curves.corners[1:-1]):
@@ -112,11 +113,11 @@ def _of_curves(ink: Ink, chain: CurvedChain) -> list[Corner]:
 
 
 def _crowded_groups(
-    line: Line, ink: Ink, turn: FloatArray, most: NDArray[np.intp], width_px: float, apart: list[Corner]
+    line: Line, ink: Ink, stretches: list[tuple[int, int]], apart: list[Corner]
 ) -> list[list[Corner]]:
-    """The corners of each crowd that a chain of sides explains."""
+    """The corners of each crowd that a chain of straight sides explains."""
     groups: list[list[Corner]] = []
-    for low, high in crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px):
+    for low, high in stretches:
         known = [corner for corner in apart if low <= (corner.before + corner.after) / 2 <= high]
         together = _crowded(line, ink, low, high, known)
         if together:
