@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -45,7 +46,7 @@ def test_a_step_with_a_curved_side_has_both_its_corners(traced, radius, side, tu
 def test_edges_alone_tell_corners_between_arcs():
     width = 10.0
     points, corners = step(2.0, 1.8, 95, width)
-    middle = np.vstack([np.linspace(a, b, 9)[:-1] for a, b in zip(points[:-1], points[1:], strict=True)])
+    middle = np.vstack([np.linspace(a, b, 9)[:-1] for a, b in itertools.pairwise(points)])
     found = curves_of(middle, [], outline(points, width), width, 0.02)
     assert found is not None
     assert len(found.corners) == 4
@@ -63,7 +64,9 @@ def test_a_side_starts_and_ends_in_its_own_directions():
 def test_a_fit_is_never_worse_than_its_start():
     width = 10.0
     points, corners = step(2.0, 1.8, 95, width)
-    start = Curves(np.vstack([points[:1], corners + [[2, 1], [-1, 2]], points[-1:]]), np.zeros((3, 2)))
+    start = Curves(
+        np.vstack([points[:1], corners + np.array([[2, 1], [-1, 2]]), points[-1:]]), np.zeros((3, 2))
+    )
     edge = outline(points, width)
     found, seen = fitted_curves(start, edge, width)
     assert seen.rms < 0.02

@@ -1,7 +1,7 @@
 """Corners between short curved sides: a chain of parabolas whose ink has the edges that are seen.
 
-Each side is drawn as facets, and their ends are sums of the corners and the sides' bulges. So what edges say of
-facets says it of those (`edge_fit.missed`), and the same method fits them.
+Each side is drawn as facets, and their ends are sums of the corners and the sides' bulges. So what edges say
+of facets says it of those (`edge_fit.missed`), and the same method fits them.
 """
 
 from __future__ import annotations
@@ -13,20 +13,21 @@ import numpy as np
 from wrapit.drawing.bitmap.corners.edge_fit import Missed, farthest, settled, slopes
 from wrapit.geometry import FloatArray, unit
 
-# In stroke widths. Measured on 120 strokes of 1 to 3 corners, 68 to 140 degrees, between arcs of radius 1 to 4
-# and length 1 to 2, 4 to 30 px wide, two in five with hard edges, of which 65 come out right (48 without).
-# How many facets has a side? At a radius of 1.5 four are 0.02 inside of a side two widths long; six find as many.
+# In stroke widths. Measured on 120 strokes of 1 to 3 corners, 68 to 140 degrees, between arcs of radius 1 to
+# 4 and length 1 to 2, 4 to 30 px wide, two in five with hard edges, of which 65 come out right (48 without).
+# How many facets has a side? At a radius of 1.5 four are 0.02 inside of a side two widths long; six are no
+# better.
 _FACETS = 4
 # How many corners has a chain, and when is it given up? Where neither of two more lessens the misfit by a
 # tenth; giving up at the first that doesn't loses three of the 120.
 _MOST = 5
 _GAIN = 0.9
-# Which corners can a chain do without? Those without which it fits as well as grey edges can be seen, or hardly
-# worse: small steps lose their corners otherwise, as two bulging sides nearly do.
+# Which corners can a chain do without? Those without which it fits as well as grey edges can be seen, or
+# hardly worse: small steps lose their corners otherwise, as two bulging sides nearly do.
 _WELL = 0.01
 _LOSS = 1.5
-# What does a pen draw? No side shorter than this, none that bulges by more than a third of its chord (that is a
-# loop), and no corner that folds back (that is a tip). As with straight sides; not varied alone.
+# What does a pen draw? No side shorter than this, none that bulges by more than a third of its chord (that is
+# a loop), and no corner that folds back (that is a tip). As with straight sides; not varied alone.
 _SHORTEST = 0.7
 _LEAST_END = 0.5
 _BULGIEST = 0.35
@@ -104,7 +105,7 @@ def _upright(moved: FloatArray, count: int) -> FloatArray:
 def curves_of(
     middle: FloatArray, known: list[FloatArray], edge: FloatArray, width_px: float, good: float
 ) -> Curves | None:
-    """The chain of curved sides with the fewest corners that fits the edges, from end to end of a middle line.
+    """The chain of curved sides with the fewest corners that fits the edges, from end to end of a line.
 
     Corners are added where the middle line is farthest from the chain: to those `known`, then to none. None
     where the edges are missed by more than `good` (in stroke widths), or no pen draws such a chain.
@@ -120,7 +121,7 @@ def curves_of(
 def _grown(
     chain: Curves, middle: FloatArray, edge: FloatArray, width_px: float, good: float
 ) -> Curves | None:
-    """The chain with as many more corners as it needs to fit, and none it can do without; None if it never fits."""
+    """The chain with as many corners as it needs to fit; None if it never does."""
     if len(chain.corners) > 2:
         chain, seen = fitted_curves(chain, edge, width_px)
         if seen.rms < good:
@@ -160,8 +161,8 @@ def _without(chain: Curves, corner: int) -> Curves:
     before, _, after = chain.corners[corner - 1 : corner + 2]
     bulges = np.delete(chain.bulges, corner, axis=0)
     bulges[corner - 1] = chain.corners[corner] - (before + after) / 2
-    longest = 0.25 * np.linalg.norm(after - before)
-    bulges[corner - 1] *= min(1.0, longest / max(np.linalg.norm(bulges[corner - 1]), 1e-9))
+    longest = 0.25 * float(np.linalg.norm(after - before))
+    bulges[corner - 1] *= min(1.0, longest / max(float(np.linalg.norm(bulges[corner - 1])), 1e-9))
     return Curves(np.delete(chain.corners, corner, axis=0), bulges)
 
 

@@ -108,10 +108,10 @@ def settled(
     edge: FloatArray,
     width_px: float,
 ) -> tuple[FloatArray, Missed]:
-    """Points (m, 2) of which those `inner` are moved until a chain's edges fit best (Gauss and Newton's method).
+    """Points (m, 2), those `inner` moved until a chain's edges fit best (Gauss and Newton's method).
 
-    The chain has its `ends` of sides from the points, and `slope` (n, inner, 2) tells how moving those changes
-    what edges are missed by.
+    The chain has its `ends` of sides from the points, and `slope` (n, inner, 2) tells how moving those
+    changes what edges are missed by.
     """
     moving = start.copy()
     seen = missed(ends(moving), edge, width_px)

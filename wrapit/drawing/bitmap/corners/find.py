@@ -50,8 +50,8 @@ _SLACK = 0.001
 class Corner:
     """A corner or tight bend: the points before index `before` and from `after` on are its sides.
 
-    `points` (n, 2) lie between them: the apex alone where it is `sharp`, else an arc. Where corners stand close
-    together a `side` leads to it, and a `last_side` away from it, instead of the line's own points.
+    `points` (n, 2) lie between them: the apex alone where it is `sharp`, else an arc. Where corners stand
+    close together a `side` leads to it, and a `last_side` away from it, instead of the line's own points.
     """
 
     points: FloatArray

@@ -16,8 +16,8 @@ from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
 
 # In stroke widths, or pixels where the name says so; measured on the strokes named in `curved_sides.py`.
-# What can't be explained? A stretch of this length whose edges are missed by more (root mean square): with 0.045
-# five more of 120 come out right, with 0.08 two fewer, and tracing takes a tenth more or less.
+# What can't be explained? A stretch of this length whose edges are missed by more (root mean square). With
+# 0.045 five more of the 120 come out right, with 0.08 two fewer; tracing takes a twentieth longer, or less.
 _OVER = 0.8
 _MISSED = 0.06
 _MISSED_PX = 0.6
@@ -27,11 +27,11 @@ _OTHER = 0.25
 _UNSURE = 0.03
 _UNSURE_PX = 0.3
 _PAUSE = 1.5
-# How far around are sides taken from? Where the chain ends, the middle line must be right. With 1.25 short ends
-# are all that is left of sides, with 2.25 chains reach into their neighbours.
+# How far around are sides taken from? Where the chain ends, the middle line must be right. With 1.25 small
+# steps lose a corner, as no side is left at the end; with 2.25 chains reach into their neighbours.
 _AROUND = 1.75
-# When does a chain fit? Ink beyond its ends is left out, so true ones fit better than straight chains do; with
-# 0.014 chains whose sides are no parabolas are lost. And when better than what is known?
+# When does a chain fit? Ink beyond its ends is left out, so true ones fit better than straight chains do;
+# with 0.014 those whose sides are no parabolas are lost. And when better than what is known?
 _GOOD = 0.022
 _GOOD_PX = 0.2
 _BETTER = 0.7
@@ -73,10 +73,8 @@ def curved_chains(
     """
     found = []
     windows = [w for stretch in stretches for w in _windows(line, ink, stretch, tops, spans, width_px)]
-    for low, high in _widened(windows, line, limits, tops, spans, width_px):
-        if any(low < after and before < high for before, after in taken):
-            low, high = _beside(low, high, taken)
-        chain = _chain(line, ink, (low, high), limits, spans)
+    for window in _widened(windows, line, limits, tops, spans, width_px):
+        chain = _chain(line, ink, _beside(*window, taken), limits, spans)
         if chain is not None:
             found.append(chain)
     return found
@@ -103,26 +101,39 @@ def _widened(
     """Windows with sides at both ends, and where known corners are near, sides beyond those."""
     around = round(_AROUND * width_px * (len(line.points) - 1) / line.length)
     wide: list[tuple[int, int]] = []
-    for k, (low, high) in enumerate(windows):
-        low = min([low, *tops[(tops > low - around) & (tops < low)]]) - around
-        high = max([high, *tops[(tops > high) & (tops < high + around)]]) + around
-        for before, after, _ in reversed(spans):
-            if before < low <= after + around // 2:
-                low = min(low, before - around // 2)
-        for before, after, _ in spans:
-            if before - around // 2 <= high < after:
-                high = max(high, after + around // 2)
-        low, high = max(low, limits[0]), min(high, limits[1])
+    for k, window in enumerate(windows):
+        low, high = _with_sides(*window, around, limits, tops, spans)
         if wide and low < wide[-1][1]:
-            before = wide.pop()
-            middle = (windows[k - 1][1] + windows[k][0]) // 2
-            if any(start - 2 <= middle <= stop + 2 for start, stop, _ in spans):
-                low = before[0]
+            # They share the sides between them, unless a known corner stands there.
+            earlier = wide.pop()
+            parted = (windows[k - 1][1] + window[0]) // 2
+            if any(start - 2 <= parted <= stop + 2 for start, stop, _ in spans):
+                parted = earlier[0]
             else:
-                wide.append((before[0], middle))
-                low = middle
+                wide.append((earlier[0], parted))
+            low = parted
         wide.append((low, high))
     return wide
+
+
+def _with_sides(
+    low: int,
+    high: int,
+    around: int,
+    limits: tuple[int, int],
+    tops: NDArray[np.intp],
+    spans: list[tuple[int, int, FloatArray]],
+) -> tuple[int, int]:
+    """A window with a side beyond its last turns and corners at either end."""
+    low = min([low, *tops[(tops > low - around) & (tops < low)].tolist()]) - around
+    high = max([high, *tops[(tops > high) & (tops < high + around)].tolist()]) + around
+    for before, after, _ in reversed(spans):
+        if before < low <= after + around // 2:
+            low = min(low, before - around // 2)
+    for before, after, _ in spans:
+        if before - around // 2 <= high < after:
+            high = max(high, after + around // 2)
+    return max(low, limits[0]), min(high, limits[1])
 
 
 def _windows(
@@ -199,7 +210,7 @@ def _chain(
 
 
 def _clean_end(line: Line, at: int, outwards: int, limits: tuple[int, int]) -> int | None:
-    """The nearest point at an end of a window from where the line runs on clean: outwards, or else inwards."""
+    """The nearest point at an end of a window from where the line is clean: outwards, or else inwards."""
     outer = clean_from(line, at, outwards)
     return outer if outer is not None and limits[0] <= outer <= limits[1] else clean_from(line, at, -outwards)
 
