@@ -7,6 +7,7 @@ apart it shows a wiggle; but each of the two edges shows both of them.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -100,35 +101,60 @@ def _beside_corner(
 
 
 def fitted(chain: FloatArray, edge: FloatArray, width_px: float) -> tuple[FloatArray, Missed]:
-    """The chain with its inner corners moved so that its ink's edges fit best (Gauss and Newton's method)."""
-    chain = chain.copy()
-    seen = missed(chain, edge, width_px)
+    """The chain with its inner corners moved so that its ink's edges fit best."""
+    inner = np.arange(1, len(chain) - 1)
+
+    def slope(seen: Missed) -> FloatArray:
+        return slopes(seen, len(chain))[:, 1:-1]
+
+    return settled(chain, inner, lambda moved: moved, slope, edge, width_px)
+
+
+def settled(
+    start: FloatArray,
+    inner: NDArray[np.intp],
+    ends: Callable[[FloatArray], FloatArray],
+    slope: Callable[[Missed], FloatArray],
+    edge: FloatArray,
+    width_px: float,
+) -> tuple[FloatArray, Missed]:
+    """Points (m, 2), those `inner` moved until a chain's edges fit best (Gauss and Newton's method).
+
+    The chain has its `ends` of sides from the points, and `slope` (n, inner, 2) tells how moving those
+    changes what edges are missed by.
+    """
+    moving = start.copy()
+    seen = missed(ends(moving), edge, width_px)
     damping = 1e-3
     for _ in range(_ROUNDS):
-        step = _step(chain, seen, width_px, damping)
-        moved = chain.copy()
-        moved[1:-1] += step
-        new = missed(moved, edge, width_px)
+        step = _step(slope(seen), seen, width_px, damping)
+        moved = moving.copy()
+        moved[inner] += step
+        new = missed(ends(moved), edge, width_px)
         if new.rms >= seen.rms:
             damping *= 10
             if damping > 10:
                 break
             continue
         gained = seen.rms - new.rms
-        chain, seen, damping = moved, new, max(damping / 10, 1e-4)
+        moving, seen, damping = moved, new, max(damping / 10, 1e-4)
         if gained < _SETTLED:
             break
-    return chain, seen
+    return moving, seen
 
 
-def _step(chain: FloatArray, seen: Missed, width_px: float, damping: float) -> FloatArray:
-    count = len(chain)
+def slopes(seen: Missed, count: int) -> FloatArray:
+    """How moving each of `count` ends of sides changes what edges (n,) are missed by: (n, count, 2)."""
     rows = np.arange(len(seen.side))
     slope = np.zeros((len(rows), count, 2))
     slope[rows, seen.side] = -seen.away * (1 - seen.share)[:, None]
     slope[rows, seen.side + 1] += -seen.away * seen.share[:, None]
+    return slope
+
+
+def _step(slope: FloatArray, seen: Missed, width_px: float, damping: float) -> FloatArray:
     weight = np.abs(seen.outside) < _OUTLIER
-    used = slope[weight][:, 1:-1].reshape(weight.sum(), -1)
+    used = slope[weight].reshape(weight.sum(), -1)
     normal = used.T @ used
     scale = damping * (np.trace(normal) / len(normal) + 1e-9)
     right = used.T @ (seen.outside[weight] * width_px)
@@ -168,9 +194,15 @@ def chain_of(middle: FloatArray, edge: FloatArray, width_px: float, good: float)
 
 
 def _with_farthest(chain: FloatArray, middle: FloatArray, width_px: float) -> FloatArray:
+    side, at = farthest(chain, middle, width_px)
+    return np.insert(chain, side + 1, middle[at], axis=0)
+
+
+def farthest(chain: FloatArray, middle: FloatArray, width_px: float) -> tuple[int, int]:
+    """Which point of a middle line is farthest from a chain, and the side it is nearest to: (side, point)."""
     far = missed(chain, middle, width_px)
-    add = 1 + int(np.argmax(far.outside[1:-1]))
-    return np.insert(chain, int(far.side[add]) + 1, middle[add], axis=0)
+    at = 1 + int(np.argmax(far.outside[1:-1]))
+    return int(far.side[at]), at
 
 
 def _pruned(chain: FloatArray, edge: FloatArray, width_px: float, good: float) -> FloatArray | None:

@@ -13,6 +13,7 @@ from wrapit.drawing.bitmap.corners.edge_fit import turns
 from wrapit.drawing.bitmap.corners.roundness import bend_radius
 from wrapit.drawing.bitmap.corners.short_sides import chain_between
 from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, tops, turning
+from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, curved_chains
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle, crossing, polynomial
@@ -49,8 +50,8 @@ _SLACK = 0.001
 class Corner:
     """A corner or tight bend: the points before index `before` and from `after` on are its sides.
 
-    `points` (n, 2) lie between them: the apex alone where it is `sharp`, else an arc. A `side` leads to it
-    from the corner before, instead of the line's own points, where corners stand close together.
+    `points` (n, 2) lie between them: the apex alone where it is `sharp`, else an arc. Where corners stand
+    close together a `side` leads to it, and a `last_side` away from it, instead of the line's own points.
     """
 
     points: FloatArray
@@ -59,6 +60,7 @@ class Corner:
     turn_rad: float
     sharp: bool
     side: Line | None = None
+    last_side: Line | None = None
 
 
 def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -> list[Corner]:
@@ -69,15 +71,53 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     if not len(most):
         return []
     apart = _apart(line, ink, width_px, _places(line, most, width_px), low, high)
-    return _in_order(_crowded_groups(line, ink, turn, most, width_px, apart), apart)
+    stretches = crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px)
+    groups = _crowded_groups(line, ink, stretches, apart)
+    found = _in_order(groups, apart)
+    curved = _between_curves(line, ink, width_px, stretches, (first, last), most, groups, found)
+    return _in_order([*groups, *curved], apart) if curved else found
+
+
+def _between_curves(
+    line: Line,
+    ink: Ink,
+    width_px: float,
+    stretches: list[tuple[int, int]],
+    limits: tuple[int, int],
+    tops: NDArray[np.intp],
+    groups: list[list[Corner]],
+    found: list[Corner],
+) -> list[list[Corner]]:
+    """The corners of each place that only a chain of curved sides explains."""
+    spans = [(corner.before, corner.after, corner.points) for corner in found]
+    taken = [(group[0].before, group[-1].after) for group in groups]
+    chains = curved_chains(line, ink, width_px, stretches, limits, tops, spans, taken)
+    return [group for chain in chains if (group := _of_curves(ink, chain))]
+
+
+def _of_curves(ink: Ink, chain: CurvedChain) -> list[Corner]:
+    """The corners between curved sides; none where one of them is a round bend, or none turns by enough."""
+    found: list[Corner] = []
+    curves = chain.curves
+    for k, apex in enumerate(curves.corners[1:-1]):
+        arriving, leaving = curves.arriving[k], curves.leaving[k + 1]
+        turned = angle(arriving, leaving)
+        radius = bend_radius(ink, apex, arriving, leaving, turned, chain.width_px)
+        sharp = radius is None or radius < _CORNER
+        if not sharp and turned > SEEN_RAD:
+            return []
+        before = chain.last if k else chain.first
+        last = chain.side(k + 1) if k == len(curves.corners) - 3 else None
+        found.append(Corner(apex[None], before, chain.last, turned, sharp, chain.side(k), last))
+    return found if any(corner.turn_rad > SEEN_RAD for corner in found) else []
 
 
 def _crowded_groups(
-    line: Line, ink: Ink, turn: FloatArray, most: NDArray[np.intp], width_px: float, apart: list[Corner]
+    line: Line, ink: Ink, stretches: list[tuple[int, int]], apart: list[Corner]
 ) -> list[list[Corner]]:
-    """The corners of each crowd that a chain of sides explains."""
+    """The corners of each crowd that a chain of straight sides explains."""
     groups: list[list[Corner]] = []
-    for low, high in crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px):
+    for low, high in stretches:
         known = [corner for corner in apart if low <= (corner.before + corner.after) / 2 <= high]
         together = _crowded(line, ink, low, high, known)
         if together:

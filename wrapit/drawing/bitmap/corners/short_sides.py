@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line, edges
 from wrapit.drawing.bitmap.corners.edge_fit import chain_of, missed
@@ -57,7 +58,7 @@ def chain_between(line: Line, ink: Ink, start: int, end: int, known: list[FloatA
 
     None where there is none that fits clearly better than the line itself, or `known` corners, do.
     """
-    first, last = _clean(line, start, -1), _clean(line, end, 1)
+    first, last = clean_from(line, start, -1), clean_from(line, end, 1)
     if first is None or last is None or last - first < 8:
         return None
     middle, clean = line.points[first : last + 1], line.clean[first : last + 1]
@@ -75,7 +76,7 @@ def chain_between(line: Line, ink: Ink, start: int, end: int, known: list[FloatA
     return None if chain is None else Chain(chain, first + 1, last, width_px)
 
 
-def _clean(line: Line, at: int, sign: int) -> int | None:
+def clean_from(line: Line, at: int, sign: int) -> int | None:
     """The nearest point from one on from where the line runs on clean for a bit."""
     run = line.clean[at:] if sign > 0 else line.clean[at::-1]
     steady = np.flatnonzero(run[:-2] & run[1:-1] & run[2:])
@@ -84,13 +85,20 @@ def _clean(line: Line, at: int, sign: int) -> int | None:
 
 def edge_points(ink: Ink, middle: FloatArray, width_px: float) -> FloatArray:
     """Points (n, 2) of the ink's edges seen from a line: across it, and aslant to see behind corners."""
+    return edges_from(ink, middle, width_px)[0]
+
+
+def edges_from(ink: Ink, middle: FloatArray, width_px: float) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Points (n, 2) of the ink's edges seen from a line, and the point of the line (n,) each is seen from."""
     course = unit(np.gradient(middle, axis=0))
     normal = np.column_stack([-course[:, 1], course[:, 0]])
     # Every other point tells as much.
-    middle, normal, course = middle[::2], normal[::2], course[::2]
+    at = np.arange(0, len(middle), 2)
+    middle, normal, course = middle[at], normal[at], course[at]
     rays = np.stack([math.cos(aslant) * normal + math.sin(aslant) * course for aslant in _LOOKS])
     origins = np.concatenate([middle] * len(_LOOKS))
     far = edges(ink, origins, rays.reshape(-1, 2), _OUT * width_px, max(0.5, width_px / 14))
     against, along = (side.reshape(len(_LOOKS), -1, 1) * rays for side in far)
     points = np.stack([middle - against, middle + along], axis=1).reshape(-1, 2)
-    return points[np.isfinite(points).all(axis=1)]
+    seen = np.isfinite(points).all(axis=1)
+    return points[seen], np.tile(at, 2 * len(_LOOKS))[seen]

@@ -43,13 +43,17 @@ def _split(
     stretch: list[slice | FloatArray | Line] = []
     start = 0
     for corner in corners:
-        stretch.append(corner.side or slice(start, corner.before))
+        stretch.append(slice(start, corner.before))
+        if corner.side is not None:
+            stretch.append(corner.side)
         start = corner.after
         if corner.sharp and corner.turn_rad >= corner_rad:
             parts.append((stretch, corner.points[0]))
             stretch = []
         else:
             stretch.append(corner.points)
+        if corner.last_side is not None:
+            stretch.append(corner.last_side)
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
     graph.corners |= set(nodes[1:-1])
@@ -99,9 +103,12 @@ def _after(first: Line, second: Line) -> Line:
 def _flattest(line: Line, width_px: float) -> int:
     """The point of a closed line around which it turns least."""
     ring = line.points[:-1]
-    reach = max(1, min(int(2 * width_px / max(line.length / len(ring), 1e-6)), len(ring) // 3))
-    before, after = ring - np.roll(ring, reach, axis=0), np.roll(ring, -reach, axis=0) - ring
-    turn = np.abs(
-        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
-    )
-    return int(np.argmin(np.round(turn, 6)))
+    whole = 2 * width_px / max(line.length / len(ring), 1e-6)
+    turns = []
+    # Near by as well as farther on: turns one way and back leave the farther course as it was.
+    for part in (1, 2, 4):
+        reach = max(1, min(int(whole / part), len(ring) // 3))
+        before, after = ring - np.roll(ring, reach, axis=0), np.roll(ring, -reach, axis=0) - ring
+        cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        turns.append(np.abs(np.arctan2(cross, (before * after).sum(axis=1))))
+    return int(np.argmin(np.round(np.sum(turns, axis=0), 6)))

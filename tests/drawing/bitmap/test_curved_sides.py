@@ -1,0 +1,73 @@
+"""Corners with short curved sides between them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.drawing.bitmap.figures import CENTRE, TURNS, few, in_pixels, turned
+from tests.drawing.bitmap.test_short_sides import outline
+from tests.drawing.generated import Points, degrees
+from wrapit.drawing.bitmap.corners.curved_sides import Curves, curves_of, fitted_curves
+
+
+def step(radius: float, side: float, turn_degrees: float, width: float) -> tuple[Points, Points]:
+    """Two opposite corners with an arc between them and long straight outer sides; and the two corners."""
+    along = np.linspace(0, side, 30) / radius
+    arc = radius * np.column_stack([np.sin(along), 1 - np.cos(along)])
+    start, end = -math.radians(turn_degrees), along[-1] - math.radians(turn_degrees)
+    before = arc[0] - 7 * np.array([math.cos(start), math.sin(start)])
+    after = arc[-1] + 7 * np.array([math.cos(end), math.sin(end)])
+    points = np.vstack([before, arc, after]) * width
+    shift = CENTRE - (points.min(axis=0) + points.max(axis=0)) / 2
+    return points + shift, arc[[0, -1]] * width + shift
+
+
+@few
+@given(st.floats(1.5, 4), st.floats(1.3, 2), st.floats(85, 105), st.floats(10, 18), TURNS)
+def test_a_step_with_a_curved_side_has_both_its_corners(traced, radius, side, turn_degrees, width, turn):
+    points, corners = step(radius, side, turn_degrees, width)
+    drawing, _ = traced([turned(points, turn)], width)
+    assert degrees(drawing) == [1, 1, 2, 2]
+    places = [
+        in_pixels(drawing, drawing.junctions[j].point)
+        for j, ends in enumerate(drawing.half_edges())
+        if len(ends) == 2
+    ]
+    for corner in turned(corners, turn):
+        assert min(np.linalg.norm(place - corner) for place in places) < 0.25 * width
+
+
+def test_edges_alone_tell_corners_between_arcs():
+    width = 10.0
+    points, corners = step(2.0, 1.8, 95, width)
+    middle = np.vstack([np.linspace(a, b, 9)[:-1] for a, b in itertools.pairwise(points)])
+    found = curves_of(middle, [], outline(points, width), width, 0.02)
+    assert found is not None
+    assert len(found.corners) == 4
+    assert np.abs(found.corners[1:-1] - corners).max() < 0.08 * width
+
+
+def test_a_side_starts_and_ends_in_its_own_directions():
+    curves = Curves(np.array([[0.0, 0.0], [4.0, 0.0]]), np.array([[0.0, 1.0]]))
+    assert curves.leaving[0] == pytest.approx([math.sqrt(0.5), math.sqrt(0.5)])
+    assert curves.arriving[0] == pytest.approx([math.sqrt(0.5), -math.sqrt(0.5)])
+    assert curves.points(0, np.array([0.5]))[0] == pytest.approx([2, 1])
+    assert curves.facets[2] == pytest.approx([2, 1])
+
+
+def test_a_fit_is_never_worse_than_its_start():
+    width = 10.0
+    points, corners = step(2.0, 1.8, 95, width)
+    start = Curves(
+        np.vstack([points[:1], corners + np.array([[2, 1], [-1, 2]]), points[-1:]]), np.zeros((3, 2))
+    )
+    edge = outline(points, width)
+    found, seen = fitted_curves(start, edge, width)
+    assert seen.rms < 0.02
+    assert (found.bulges * np.diff(found.corners, axis=0)).sum(axis=1) == pytest.approx(0, abs=1e-6)
