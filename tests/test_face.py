@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import subprocess
 import sys
@@ -214,9 +215,17 @@ def test_a_jig_without_solid_is_refused(jigs: JigSet) -> None:
 
 
 def test_a_wire_without_sound_solid_still_has_its_centreline() -> None:
+    hairpin = np.array([[(0, 0), (40, 40), (0, 40), (40, 0)]], dtype=float)  # comes to a stand inside
+    (sharp,) = wires_of([BezierChain(hairpin)])
+    with pytest.raises(KernelError, match="no sound solid"):
+        cad.wire_part(sharp)
+    tree = cad.assembly("piece", [sharp])
+    assert [child.name for child in tree.children] == [f"{sharp.name} centreline"]
+
+
+def test_a_folded_wire_is_a_part_of_both_its_arms() -> None:
     there_and_back = [line((0, 0), (10, 0)).points, line((10, 0), (0, 0)).points]
     (folded,) = wires_of([BezierChain(np.concatenate(there_and_back))])
-    with pytest.raises(KernelError, match="no sound solid"):
-        cad.wire_part(folded)
-    tree = cad.assembly("piece", [folded])
-    assert [child.name for child in tree.children] == [f"{folded.name} centreline"]
+    part = cad.wire_part(folded)
+    assert len(part.solids()) == 2
+    assert part.volume == pytest.approx(math.pi / 4 * folded.diameter_mm**2 * folded.length_mm, rel=0.05)

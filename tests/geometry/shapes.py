@@ -56,6 +56,22 @@ def tame_cubics(draw: st.DrawFn) -> FloatArray:
 
 
 @st.composite
+def cubics_with_tips(draw: st.DrawFn, off: float = 0.02) -> FloatArray:
+    """One cubic (4, 2) that comes to a stand inside, or all but does, and leaves to another side.
+
+    B'(t) = 0 fixes the middle leg of its control polygon by the others; `off` moves it a little.
+    """
+    t, heading = draw(st.floats(0.3, 0.7)), draw(st.floats(-math.pi, math.pi))
+    # Sides of a tip part by what both legs differ in direction.
+    between = draw(st.floats(0.5, 2.6)) * draw(st.sampled_from([-1, 1]))
+    out = draw(st.floats(10, 40)) * np.array([1.0, 0.0])
+    back = draw(st.floats(10, 40)) * np.array([math.cos(between), math.sin(between)])
+    middle = -((1 - t) ** 2 * out + t**2 * back) / (2 * t * (1 - t))
+    middle = middle + off * np.array([draw(st.floats(-1, 1)), draw(st.floats(-1, 1))])
+    return Motion(heading, draw(points)).of(np.cumsum([np.zeros(2), out, middle, back], axis=0))
+
+
+@st.composite
 def tame_chains(draw: st.DrawFn) -> BezierChain:
     """Up to four tame cubics, each from where the one before ends, mostly with a corner there."""
     cubics = [draw(tame_cubics())]

@@ -10,7 +10,8 @@ import pytest
 from tests.jig.metal import arcs, circle, line, scribble, wires_of
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
-from wrapit.kernel.measures import is_valid, size_mm, volume_mm3
+from wrapit.kernel.interference import common_mm3
+from wrapit.kernel.measures import box_mm, count_solids, is_valid, size_mm, volume_mm3
 from wrapit.kernel.round_wires.heights import HEIGHT_TOLERANCE_MM, smooth_heights
 from wrapit.kernel.round_wires.sweeps import round_wire, torus
 
@@ -122,3 +123,40 @@ def test_a_ring_is_whole() -> None:
     assert is_valid(ring)
     assert volume_mm3(ring) == pytest.approx(2 * math.pi**2 * 3.0 * 0.5**2, rel=1e-6)
     assert size_mm(ring) == pytest.approx((7, 1, 7), abs=1e-6)
+
+
+@pytest.mark.parametrize("lifts", [(), ((0, 0), (23, 0), (26, D), (32, D))])
+@pytest.mark.parametrize("degrees", [150, 160, 175, 180])
+def test_a_folded_wire_has_a_solid_for_each_arm(degrees: int, lifts: tuple[tuple[float, float], ...]) -> None:
+    """From 157 degrees on no mitre is made; both arms end square."""
+    turn = math.radians(degrees)
+    spline = from_chain(
+        BezierChain(
+            np.concatenate(
+                [
+                    line((0, 0), (20, 0)).points,
+                    line((20, 0), (20 + 12 * math.cos(turn), 12 * math.sin(turn))).points,
+                ]
+            )
+        )
+    )
+    wire = round_wire(spline, D, lifts, "wire-01")
+    assert wire.solid is not None, wire.flaw
+    assert count_solids(wire.solid) == (2 if degrees > 157 else 1)
+    assert is_valid(wire.solid)
+    assert volume_mm3(wire.solid) == pytest.approx(AREA * 32, rel=2e-2)
+    # Nothing of it sticks out beyond the fold.
+    if degrees > 157:
+        assert box_mm(wire.solid)[1][0] < 20 + D / 2
+
+
+def test_what_a_folded_wire_shares_with_a_block_is_that_of_its_arms() -> None:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+    from OCP.gp import gp_Pnt
+
+    spline = from_chain(
+        BezierChain(np.concatenate([line((0, 0), (20, 0)).points, line((20, 0), (0, 0)).points]))
+    )
+    wire = round_wire(spline, D, ((0, 0), (23, 0), (26, D), (40, D)), "wire-01")
+    block = BRepPrimAPI_MakeBox(gp_Pnt(5, -9, -9), gp_Pnt(10, 9, 9)).Solid()
+    assert common_mm3(block, wire.solid, "wire-01") == pytest.approx(2 * 5 * AREA, rel=1e-3)

@@ -28,14 +28,20 @@ def volume_mm3(shape: Any) -> float:
 
 def count_solids(shape: Any) -> int:
     """Number of solids in the shape."""
+    return len(solids_of(shape))
+
+
+def solids_of(shape: Any) -> list[Any]:
+    """The solids in the shape, or the solid that it is."""
     from OCP.TopAbs import TopAbs_SOLID
     from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
 
-    explorer, count = TopExp_Explorer(shape, TopAbs_SOLID), 0
+    explorer, solids = TopExp_Explorer(shape, TopAbs_SOLID), []
     while explorer.More():
-        count += 1
+        solids.append(TopoDS.Solid_s(explorer.Current()))
         explorer.Next()
-    return count
+    return solids
 
 
 def box_mm(shape: Any) -> tuple[FloatArray, FloatArray]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from wrapit.kernel.guard import guarded
+from wrapit.kernel.measures import solids_of
 
 if TYPE_CHECKING:
     import build123d
@@ -44,7 +45,8 @@ def build123d_part(part: FilePart) -> build123d.Part:
 
     with guarded("handing over to build123d", part.name):
         # A Part around the bare solid would have no volume: it adds up those of its members.
-        return build123d.Part([build123d.Solid(part.solid)], label=part.name, color=_linear(part.colour))
+        members = [build123d.Solid(solid) for solid in solids_of(part.solid)]
+        return build123d.Part(members, label=part.name, color=_linear(part.colour))
 
 
 def build123d_edge(part: FilePart) -> build123d.Edge:

@@ -121,7 +121,7 @@ def write_wires(wires: Wires, ring: JumpRing | None, config: Config, path: Path)
             "wire-without-solid",
             w.name,
             f"its round solid is not sound ({m.flaw}); {path.name} holds its centreline alone",
-            "folds, and bends tighter than the wire is thick, have no sound solid: make the piece larger",
+            "bends tighter than the wire is thick have no sound solid: make the piece larger",
         )
         for w, m in made
         if m.solid is None

@@ -12,6 +12,7 @@ import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, cut
+from wrapit.wires.fairing import faired
 from wrapit.wires.rounding import NO_BLEND, Blend, best_blend
 
 # What is rounded, how far, and what isn't. On three of our drawings a third more or less of the first three
@@ -20,6 +21,10 @@ SMOOTH_BEND_RAD = 1e-4  # smaller bends are noise: turning the handles moves the
 RELAX_RADII = 4.0  # how far beyond a tight span a wire may leave the drawing to widen it
 MAX_TRIM = 0.45  # share of a segment that one corner may use up
 FOLD_RAD = math.radians(175)  # a wire laid back over itself is folded, not rounded
+# The tightest hairpin that a tip becomes, in bends that the metal takes: half of that of soft wire is half of
+# its thickness, and tighter its sides would lie in each other.
+HAIRPIN_SHARE = 0.5
+TIP_RAD = math.radians(150)  # straight sides would be cut by 3.7 bends here, curved ones by far less
 
 
 @dataclass(frozen=True)
@@ -46,7 +51,7 @@ def join(curves: Sequence[BezierChain], min_radius_mm: float) -> Joined:
 
     Each curve starts where the one before ends. Kinks inside a curve are rounded like those between curves.
     """
-    split = [_split_at_kinks(curve) for curve in curves]
+    split = [_split_at_kinks(faired(curve, min_radius_mm)) for curve in curves]
     pieces = _aligned([piece for group in split for piece in group])
     blends = [_blend(before, after, min_radius_mm) for before, after in itertools.pairwise(pieces)]
     trims = [blend.trim_mm for blend in blends]
@@ -107,10 +112,28 @@ def _aligned(curves: Sequence[BezierChain]) -> list[BezierChain]:
 
 def _blend(before: BezierChain, after: BezierChain, min_radius_mm: float) -> Blend:
     bend = bend_rad(before, after)
-    if bend < SMOOTH_BEND_RAD or bend > FOLD_RAD:
+    if bend < SMOOTH_BEND_RAD:
         return NO_BLEND
     room_mm = MAX_TRIM * min(before.length, after.length)
-    return best_blend(before, after, min_radius_mm * math.tan(bend / 2), room_mm, min_radius_mm)
+    if bend > FOLD_RAD:
+        return _hairpin(before, after, room_mm, min_radius_mm)
+    blend = best_blend(before, after, min_radius_mm * math.tan(bend / 2), room_mm, min_radius_mm)
+    if bend > TIP_RAD:
+        # Sides that curve away from each other have room for the bend long before straight ones would.
+        hairpin = _hairpin(before, after, room_mm, min_radius_mm)
+        enough = hairpin.radius_mm >= 0.999 * min(min_radius_mm, blend.radius_mm)
+        return hairpin if hairpin.curves and enough and hairpin.deviation_mm < blend.deviation_mm else blend
+    return blend
+
+
+def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius_mm: float) -> Blend:
+    """A tip whose sides part becomes a hairpin; where they don't, the wire stays laid back over itself."""
+    blend = best_blend(before, after, 0.0, room_mm, min_radius_mm)
+    least_mm = HAIRPIN_SHARE * min_radius_mm
+    if not blend.curves or blend.radius_mm < least_mm:
+        return NO_BLEND
+    apart_mm = float(np.linalg.norm(blend.curves[-1].end - blend.curves[0].start))
+    return blend if apart_mm >= 2 * least_mm else NO_BLEND
 
 
 def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:

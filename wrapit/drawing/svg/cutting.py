@@ -5,12 +5,18 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike
 
 from wrapit.geometry import BezierChain, FloatArray, IntArray, unit
+from wrapit.geometry.cusps import without_cusps
 
 # Parts shorter than this share of a cubic are rounding: nobody drew them.
 _LEAST_SHARE = 1e-7
+# In reaches: a cubic that turns sharply within so much has a tip there; ink shows nothing of how it turns.
+_TIP = 0.1
+# At so many places a part is held against another, which is as smooth as it is.
+_PLACES = 32
 
 
 def stretches(cubics: FloatArray, starts: ArrayLike, ends: ArrayLike) -> list[FloatArray | None]:
@@ -38,6 +44,38 @@ def moved(cubics: FloatArray, start: FloatArray, end: FloatArray) -> BezierChain
     moved[-1, 2] += end - moved[-1, 3]
     moved[0, 0], moved[-1, 3] = start, end
     return BezierChain(moved)
+
+
+def cut_at_tips(cubics: FloatArray, closed: bool, reach: float) -> list[tuple[FloatArray, bool]]:
+    """The chain with its cubics cut where they turn back, as one or several: cubics, and whether closed.
+
+    Short tips that ink hides stay. What comes back on its own ink is left out, which parts the chain.
+    """
+    runs: list[list[FloatArray]] = [[]]
+    for cubic in cubics:
+        parts = without_cusps(cubic[None], _TIP * reach)
+        if len(parts) > 1 and float(BezierChain(parts).lengths.min()) < reach:
+            parts = cubic[None]
+        for index, part in enumerate(parts):
+            beside = [*parts[max(index - 1, 0) : index], *parts[index + 1 : index + 2]]
+            if any(_lies_on(part, other, _TIP * reach) for other in beside):
+                runs.append([])
+            else:
+                runs[-1].append(part)
+    if len(runs) == 1:
+        return [(np.stack(runs[0]), closed)]
+    if closed:
+        runs[0] = [*runs.pop(), *runs[0]]
+    return [(np.stack(run), False) for run in runs if run]
+
+
+def _lies_on(part: FloatArray, other: FloatArray, near: float) -> bool:
+    """Whether a cubic lies on another that is longer, all along."""
+    one, whole = BezierChain(part[None]), BezierChain(other[None])
+    if one.length >= whole.length:
+        return False
+    points, ground = one.sampled(one.length / _PLACES), shapely.LineString(whole.sampled(near))
+    return bool((shapely.distance(shapely.points(points), ground) <= near).all())
 
 
 def corners(cubics: FloatArray, closed: bool, turn_rad: float) -> IntArray:

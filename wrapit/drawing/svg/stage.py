@@ -12,9 +12,10 @@ from wrapit.drawing.changes import Change
 from wrapit.drawing.components import LONGEST_LINK, connect
 from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
+from wrapit.drawing.svg.cutting import cut_at_tips
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.hand_doubles import without_hand_doubles
-from wrapit.drawing.svg.planar import planar
+from wrapit.drawing.svg.planar import Curve, planar
 from wrapit.drawing.svg.programs import SKETCHED
 from wrapit.drawing.svg.remarks import of_fills
 from wrapit.drawing.svg.seen.told import told
@@ -56,7 +57,12 @@ def trace_svg(
     reach = min(reach, _MOST * size)
     sketched = strokes.page.program in SKETCHED
     by_hand = without_hand_doubles(strokes.curves, strokes.owners, reach / _REACH, size, sketched)
-    curves, doubles = without_coincident(by_hand.curves, reach / _REACH)
+    cut = [
+        Curve(cubics, closed)
+        for curve in by_hand.curves
+        for cubics, closed in cut_at_tips(curve.cubics, curve.closed, reach)
+    ]
+    curves, doubles = without_coincident(cut, reach / _REACH)
     # Where lines wobble, their ends miss each other by as much.
     graph = planar(curves, max(reach, by_hand.apart), tracing.corner_angle, str(path))
     if not graph.pieces:

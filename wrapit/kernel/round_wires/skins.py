@@ -30,16 +30,17 @@ _MIDDLES = (0.5, 1.5)
 
 
 def skin(spine: Spine, span: int, radius: float) -> Any:
-    """The round surface along one smooth span; where it meets the next at a corner, cut on the mitre."""
+    """The round surface along one smooth span; ends at corners are cut on the mitre, at folds square."""
     nodes = spine.spans[span]
     points = spine.points(nodes)
     slopes, _ = spine.slopes_along(nodes)
     level, upright = spine.frames(nodes)
     last_level, last_upright = spine.frames(nodes[-1:], before=True)
     level[-1], upright[-1] = last_level[0], last_upright[0]
-    if span > 0:
+    arm = next(arm for arm in spine.arms if span in arm)
+    if span > arm[0]:
         level[0] = _mitre(spine, nodes[:1])
-    if span < len(spine.spans) - 1:
+    if span < arm[-1]:
         level[-1] = _mitre(spine, nodes[-1:])
     # The frame's change on both sides of each node: where the curvature jumps, the skin's speed does.
     steps = np.diff(nodes) * 1e-3
@@ -75,7 +76,7 @@ def _mitre(spine: Spine, node: FloatArray) -> FloatArray:
     """The level vector common to both spans at a corner, longer by 1 / cos of half the bend."""
     before, after = spine.frames(node, before=True)[0][0], spine.frames(node)[0][0]
     middle = unit(before + after)
-    return middle / max(float(middle @ after), 0.2)
+    return middle / float(middle @ after)
 
 
 def _surface(poles: FloatArray, nodes: FloatArray) -> Any:
@@ -164,3 +165,17 @@ def capped(skins: Sequence[Any]) -> Any:
     solid = BRepBuilderAPI_MakeSolid(TopoDS.Shell_s(shell)).Solid()
     BRepLib.OrientClosedSolid_s(solid)
     return solid
+
+
+def together(solids: Sequence[Any]) -> Any:
+    """The one solid, or several as one shape, which lie in each other where they meet."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    if len(solids) == 1:
+        return solids[0]
+    builder, shape = BRep_Builder(), TopoDS_Compound()
+    builder.MakeCompound(shape)
+    for solid in solids:
+        builder.Add(shape, solid)
+    return shape

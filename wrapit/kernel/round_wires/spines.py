@@ -19,6 +19,8 @@ from wrapit.kernel.round_wires.heights import smooth_heights
 TURN_STEP_RAD = 0.25
 # How far may it rise along? Half as far makes 20 % more faces, twice as far errs by 6.6e-4 of the volume.
 LIFT_STEP_MM = 0.6
+# From where on is a corner a fold, which no mitre closes? Beyond, a mitre is 5 radii long.
+FOLD_RAD = 2 * math.acos(0.2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,17 @@ class Spine:
             np.array([u for u in self._nodes if a <= u <= b])
             for a, b in itertools.pairwise([self.spline.domain[0], *corners, self.spline.domain[1]])
         ]
+
+    @cached_property
+    def arms(self) -> list[range]:
+        """The spans between one fold and the next: there the wire is laid back over itself."""
+        folds = [index for index in range(1, len(self.spans)) if self._folds(index)]
+        return [range(a, b) for a, b in itertools.pairwise([0, *folds, len(self.spans)])]
+
+    def _folds(self, span: int) -> bool:
+        corner = self.spans[span][:1]
+        before, after = unit(self.slopes(corner, before=True))[0], unit(self.slopes(corner))[0]
+        return float(before @ after) < math.cos(FOLD_RAD)
 
     @cached_property
     def breaks(self) -> FloatArray:

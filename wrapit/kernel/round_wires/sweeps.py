@@ -15,7 +15,7 @@ from wrapit.errors import KernelError
 from wrapit.geometry import BSpline
 from wrapit.kernel.guard import guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
-from wrapit.kernel.round_wires.skins import capped, skin
+from wrapit.kernel.round_wires.skins import capped, skin, together
 from wrapit.kernel.round_wires.spines import Spine
 
 # By how much may a wire's volume differ from section times length? Sixteen sound wires differ by
@@ -38,7 +38,8 @@ def round_wire(
     """A round wire along a planar spline.
 
     `lifts` are heights (at_mm, z_mm) along the planar length with straight ramps between, whose kinks are
-    rounded upwards; x and y of the centreline are those of the spline, exactly. A wire that bends more
+    rounded upwards; x and y of the centreline are those of the spline, exactly. A wire that is folded has a
+    solid for each of its arms, which lie in each other next to the fold, in one shape. One that bends more
     tightly than it is thick has no sound solid. Raises KernelError naming the wire.
     """
     with guarded("making the round wire", name):
@@ -46,7 +47,9 @@ def round_wire(
         edge = spine.edge()
     try:
         with guarded("making the round wire's solid", name):
-            solid = capped([skin(spine, index, diameter_mm / 2) for index in range(len(spine.spans))])
+            radius_mm = diameter_mm / 2
+            arms = [capped([skin(spine, index, radius_mm) for index in arm]) for arm in spine.arms]
+            solid = together(arms)
             flaw = _flaw(solid, math.pi / 4 * diameter_mm**2 * spine.length_mm)
     except KernelError as error:
         return RoundWire(edge, None, error.problem)
