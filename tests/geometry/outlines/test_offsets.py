@@ -72,7 +72,10 @@ def blob(seed: int) -> Region:
     rng = np.random.default_rng(seed)
     circles = [Arc((float(x), float(y)), float(r), 0.0, math.tau) for x, y, r in rng.uniform(2, 6, (3, 3))]
     grown = union_all([Point(c.centre).buffer(c.radius_mm + 1.0, quad_segs=128) for c in circles])
-    return Outliner.of(circles, (1.0,), 2e-3).region(max(getattr(grown, "geoms", [grown]), key=lambda g: g.area))
+    largest = max(getattr(grown, "geoms", [grown]), key=lambda g: g.area)
+    return Outliner.of(circles, (1.0,), 2e-3).region(largest)
+        max(getattr(grown, "geoms", [grown]), key=lambda g: g.area)
+    )
 
 
 @settings(max_examples=15)
