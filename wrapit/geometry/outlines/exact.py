@@ -30,7 +30,8 @@ from wrapit.geometry.polyline import signed_area
 STEP_MM = 0.1
 SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
 # How near free sides are to the polygon; nothing rests on them. At 0.0035 they have 7 % more cubics.
-FREE_TOLERANCE_MM = 0.005
+# Nearer only where a curve is that they must not come too near to.
+FREE_TOLERANCES_MM = (0.005, 0.001)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,20 +132,26 @@ class Outliner:
 
     def _free(self, points: FloatArray) -> list[Edge]:
         """Fitted edges; straight ones from point to point where a fitted one would come too near a curve."""
-        # Between two distances a polygon's side may be the parallel of the curve that is not the nearest.
-        near = self.curves.nearest(points[1:-1], self.distances_mm[-1]).distance
-        if len(self.distances_mm) == 1 or (near >= self.distances_mm[-1] - self.slack_mm).all():
-            edges = fitted_edges(points, FREE_TOLERANCE_MM)
-            if all(self._clear(edge) for edge in edges):
+        for tolerance_mm in FREE_TOLERANCES_MM:
+            edges = fitted_edges(points, tolerance_mm)
+            if all(self._clear(edge, points) for edge in edges):
                 return edges
         thinned = _without_needless(points)
         return [Line(point_of(a), point_of(b)) for a, b in itertools.pairwise(thinned)]
 
-    def _clear(self, edge: Edge) -> bool:
+    def _clear(self, edge: Edge, points: FloatArray) -> bool:
+        """Whether an edge comes no nearer to any curve than the largest distance, or no more so than the polygon."""
+        import shapely
+
         if isinstance(edge, Line):
             return True
-        near = self.curves.nearest(edge.sampled(0.02), self.distances_mm[-1])
-        return bool((near.distance >= self.distances_mm[-1] - 1e-7).all())
+        sampled = edge.sampled(0.02)
+        near = self.curves.nearest(sampled, self.distances_mm[-1]).distance
+        if (near < self.distances_mm[0] - 1e-7).any():
+            return False
+        between = shapely.points(sampled[near < self.distances_mm[-1] - 1e-7])
+        apart = shapely.distance(between, shapely.LineString(points))
+        return bool(apart.max(initial=0.0) <= self.slack_mm)
 
 
 class _Points:
