@@ -44,5 +44,5 @@ def test_the_numbers_on_the_page_are_the_codes() -> None:
     assert f"within `TOLERANCE_MM` ({parallels.TOLERANCE_MM:.0e} mm)".replace("e-05", "e-5") in page
     assert f"less than {parallels._MAX_TURNING_RAD:g} rad" in page
     assert f"corners over {round(polygons.CORNER_RAD * 57.29578)}°" in page
-    assert f"cubics within {exact.FREE_TOLERANCE_MM:g} mm" in page
+    assert f"cubics within {exact.FREE_TOLERANCES_MM[0]:g} mm" in page
     assert f"a table of {arclength.TABLE_SIZE} steps" in page

@@ -58,8 +58,12 @@ class JigConfig(Block):
     split: Literal["auto", "single", "per-wire"] = "auto"
     """One jig for all wires, or several; auto splits where a single jig would hold a wire badly."""
 
+    max_strays: Annotated[float, number(0, 1)] = 0.08
+    """Auto splits when a wire laid under tension would lie over 0.5 mm off the drawing along more than this
+    share of its length (`support: taut`)."""
+
     min_turn_support: Annotated[float, number(0, 1)] = 0.6
-    """Auto splits when a wire would have wall along less than this share of its turns."""
+    """Auto splits when a wire would have wall along less than this share of its turns (`support: turns`)."""
 
     split_turn_support: Annotated[float, number(0, 1)] = 0.9
     """Once split, wires share a jig only if each has wall along this share of its turns (or can't alone)."""

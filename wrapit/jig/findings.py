@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
+
+import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
-from wrapit.jig.model import Pin, TurnSupport
-from wrapit.jig.support import support_by_wire
+from wrapit.jig.model import SEEN_MM, Course, Hold, Pin, SameShape, TurnSupport
+from wrapit.jig.support import kept, support_by_wire
 
 # Turns with wall along less than this share are named: more of them is left to the hand than to the wall.
 WEAK = 0.5
 
 
 def support_findings(
-    channels: Channels, pins: Iterable[Pin], support: Iterable[TurnSupport], config: JigConfig
+    channels: Channels,
+    pins: Iterable[Pin],
+    support: Iterable[TurnSupport],
+    laid: Iterable[Course],
+    config: JigConfig,
 ) -> tuple[Finding, ...]:
-    """A finding for each turn or long stretch that is held badly: a pin takes it, or what could be done."""
+    """A finding for each turn or long stretch that is held badly: a pin takes it, or what could be done.
+
+    Where a wire laid under tension follows the drawing all the same, nothing is said.
+    """
+    course_of = {course.wire: course for course in laid}
     pin_in = {pin.turn: pin for pin in pins}
     findings = []
     for one in support:
@@ -33,18 +43,20 @@ def support_findings(
                     "bend the wire around the pin",
                 )
             )
-        elif one.share < WEAK and one.turn.stretch:
+        elif one.share >= WEAK or kept(one.turn, course_of) == 1.0:
+            continue
+        elif one.turn.stretch:
             findings.append(
                 Finding(
                     "warning",
                     "weak-stretch",
                     where,
-                    f"{one.share:.0%} of this long stretch has a wall on either side",
+                    f"{one.share:.0%} of this long stretch has a wall",
                     "keep it straight by hand, make the piece larger, or set jig.split to per-wire",
                     severity=1 - one.share,
                 )
             )
-        elif one.share < WEAK:
+        else:
             findings.append(
                 Finding(
                     "warning",
@@ -74,17 +86,61 @@ def unheld_findings(held: Iterable[TurnSupport], config: JigConfig) -> tuple[Fin
     )
 
 
-def split_finding(shared: Mapping[str, float], jigs: int, wanted: float) -> Finding:
-    """Says why there are several jigs."""
-    weakest = min(shared, key=lambda name: (shared[name], name))
+def split_finding(wire: str, shared: Hold, split: Hold, jigs: int, config: JigConfig) -> Finding:
+    """Says why there are several jigs, and what that bought for the worst wire."""
+    if config.support == "turns":
+        why = f"leave it wall along {shared.turns:.0%} of its turns, now {split.turns:.0%}"
+    else:
+        why = f"let it lie off by more than {SEEN_MM:g} mm along {shared.strays:.0%}, now {split.strays:.0%}"
     return Finding(
         "note",
         "split",
-        weakest,
-        f"in one jig, other wires would leave it wall along {shared[weakest]:.0%} of its turns"
-        f" (less than {wanted:.0%}), so there are {jigs} jigs",
+        wire,
+        f"in one jig, other wires would {why}, so there are {jigs} jigs",
         "set jig.split to single to get one all the same",
     )
+
+
+def form_findings(forms: Iterable[SameShape]) -> tuple[Finding, ...]:
+    """Says for each form which other wires are made on it."""
+    by_form: dict[str, list[SameShape]] = {}
+    for form in forms:
+        by_form.setdefault(form.like, []).append(form)
+    return tuple(
+        Finding(
+            "note",
+            "form",
+            like,
+            f"make {len(mine) + 1} on this form: {', '.join(_named(form) for form in mine)} have its shape",
+            "turn mirrored ones over after bending",
+        )
+        for like, mine in by_form.items()
+    )
+
+
+def _named(form: SameShape) -> str:
+    return f"{form.wire} (mirrored)" if form.mirrored else form.wire
+
+
+def stray_findings(laid: Iterable[Course]) -> tuple[Finding, ...]:
+    """A warning for each place where a wire laid under tension lies visibly off the drawing."""
+    findings = []
+    for course in laid:
+        off = np.concatenate([[False], course.off_mm > SEEN_MM, [False]])
+        starts, ends = (np.flatnonzero(np.diff(off.astype(int)) == step) for step in (1, -1))
+        for a, b in zip(starts, ends, strict=True):
+            worst = int(a + course.off_mm[a:b].argmax())
+            findings.append(
+                Finding(
+                    "warning",
+                    "strays",
+                    f"{course.wire} at {course.at_mm[worst]:.0f} mm",
+                    f"wrapped tight, it will cut the corner by {course.off_mm[worst]:.1f} mm",
+                    "press it by hand there, make the piece larger, or set jig.split to per-wire",
+                    severity=float(course.off_mm[worst]),
+                )
+            )
+    return tuple(findings)
 
 
 def free_finding(wire: str) -> Finding:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Protocol, TypeVar
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -12,16 +13,19 @@ from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 from wrapit.jig.channel import CHANNEL_PAD_MM, Channels
 from wrapit.jig.findings import free_finding, split_finding
+from wrapit.jig.model import Hold, SameShape
 from wrapit.jig.openings.holes import hole_obstacles, start_holes
+from wrapit.jig.same_shape import same_shapes
 from wrapit.jig.wall_ground import ROUGH_STEP_MM, TOUCH_MM, face_probes
 from wrapit.wires.model import Wire
 
 # What the jig of all wires is called; several are called after theirs.
 ONE_JIG = "jig"
-# When another jig is worth its plate: a badly held wire gains this much support, or one jig less costs each
-# wire no more than EASE. No measurement set them; 30 % up or down changes the groups of neither leaf (two
-# jigs) nor butterfly (one).
+# When another jig is worth its plate: a badly held wire gains WORTH_A_JIG of support, or strays along less of
+# its length by WORTH_STRAYING; or one jig less costs each wire no more than EASE. No measurement set them; a
+# third up or down changes the groups of neither leaf nor butterfly.
 WORTH_A_JIG = 0.1
+WORTH_STRAYING = 0.05
 EASE = 0.02
 # Steps of the search for groups, after which the best so far is taken. With losses drawn at random twelve
 # wires take under 0.01 s and end by themselves, thirty stop after 0.8 s.
@@ -32,49 +36,96 @@ class Planned(Protocol):
     """A jig planned so far that it is known what it holds."""
 
     @property
-    def by_wire(self) -> dict[str, float]:
-        """Supported share of each wire's turns."""
+    def how_well(self) -> dict[str, Hold]:
+        """How well each of its wires is held."""
         ...
 
 
 P = TypeVar("P", bound=Planned)
 
 
+@dataclass(frozen=True, eq=False)
+class Parting(Generic[P]):
+    """The jigs of a piece, the wires that another's jig serves as they have its shape, and why."""
+
+    jigs: tuple[P, ...]
+    forms: tuple[SameShape, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
 def parted(
     wires: tuple[Wire, ...], config: JigConfig, plan: Callable[[tuple[Wire, ...], str, tuple[Wire, ...]], P]
-) -> tuple[tuple[P, ...], tuple[Finding, ...]]:
+) -> Parting[P]:
     """One jig for all wires, or several where one would hold a wire badly; and why.
 
     `plan(wires, name, others)` plans the jig of some wires; `others` are all that are parted over jigs, or
-    none where one jig is for all.
+    none where one jig is for all. Where jigs are parted, wires of one shape share one form.
     """
     if config.split == "single" or len(wires) == 1:
-        return (plan(wires, ONE_JIG, ()),), ()
+        return Parting((plan(wires, ONE_JIG, ()),))
     # A wire without turns and long stretches needs no jig of its own, and its holes take room from others.
-    held = tuple(wire for wire in wires if wire.turns) or wires
-    handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in held)))
+    bent = tuple(wire for wire in wires if wire.turns) or wires
+    forms = same_shapes(bent)
+    copies = {form.wire for form in forms}
+    held = tuple(wire for wire in bent if wire.name not in copies)
+    handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in bent)))
 
     def planned(group: tuple[Wire, ...]) -> P:
-        return plan(group, ONE_JIG if group == held else _name(group), held)
+        return plan(group, ONE_JIG if group == wires else _name(group), held)
 
     if config.split == "per-wire" or config.springback == "compensate":
-        return tuple(planned((wire,)) for wire in held), handmade
+        return Parting(tuple(planned((wire,)) for wire in held), forms, handmade)
     single = plan(wires, ONE_JIG, ())
-    shared = single.by_wire
-    if min(shared.values(), default=1.0) >= config.min_turn_support:
-        return (single,), ()
+    rule = _Rule.of(config)
+    shared = {name: rule.quality(hold) for name, hold in single.how_well.items()}
+    if min(shared.values(), default=1.0) >= rule.enough:
+        return Parting((single,))
     apart = {wire.name: planned((wire,)) for wire in held}
-    alone = {name: share for each in apart.values() for name, share in each.by_wire.items()}
-    weak = [name for name, share in shared.items() if share < config.min_turn_support]
-    if all(alone[name] - shared[name] < WORTH_A_JIG for name in weak):
-        return (single,), ()
-    groups = grouped(held, alone, config)
-    parts = tuple(apart[group[0].name] if len(group) == 1 else planned(group) for group in groups)
-    split_by_wire = {name: share for part in parts for name, share in part.by_wire.items()}
-    if all(split_by_wire[name] - shared[name] < WORTH_A_JIG for name in weak):
-        return (single,), ()
-    said = [split_finding(shared, len(groups), config.min_turn_support)] if len(groups) > 1 else []
-    return parts, (*said, *handmade)
+    alone = {name: hold for each in apart.values() for name, hold in each.how_well.items()}
+    weak = [name for name in alone if shared[name] < rule.enough]
+    if all(rule.quality(alone[name]) - shared[name] < rule.worth for name in weak):
+        return Parting((single,))
+
+    def well(group: tuple[Wire, ...]) -> list[tuple[tuple[Wire, ...], P]]:
+        """The group's jig; a wire that is held badly all the same beside the others gets one of its own."""
+        jig = apart[group[0].name] if len(group) == 1 else planned(group)
+        held_here = {name: rule.quality(hold) for name, hold in jig.how_well.items()}
+        worst = min(group, key=lambda wire: held_here.get(wire.name, 1.0))
+        quality = held_here.get(worst.name, 1.0)
+        if len(group) == 1 or quality >= rule.enough:
+            return [(group, jig)]
+        if rule.quality(alone[worst.name]) - quality < rule.worth:
+            return [(group, jig)]
+        rest = tuple(wire for wire in group if wire is not worst)
+        return [*well(rest), *well((worst,))]
+
+    turns = {name: hold.turns for name, hold in alone.items()}
+    jigs = [part for group in grouped(held, turns, config) for part in well(group)]
+    parts = tuple(jig for _, jig in sorted(jigs, key=lambda part: part[0][0].number))
+    split = {name: hold for part in parts for name, hold in part.how_well.items()}
+    if all(rule.quality(split[name]) - shared[name] < rule.worth for name in weak):
+        return Parting((single,))
+    worst = min(weak, key=lambda name: (shared[name], name))
+    said = split_finding(worst, single.how_well[worst], split[worst], len(parts), config)
+    return Parting(parts, forms, (said, *handmade))
+
+
+@dataclass(frozen=True)
+class _Rule:
+    """How a hold becomes one number, how large that has to be, and what gain is worth another jig."""
+
+    by_turns: bool
+    enough: float
+    worth: float
+
+    @staticmethod
+    def of(config: JigConfig) -> _Rule:
+        if config.support == "turns":
+            return _Rule(True, config.min_turn_support, WORTH_A_JIG)
+        return _Rule(False, 1 - config.max_strays, WORTH_STRAYING)
+
+    def quality(self, hold: Hold) -> float:
+        return hold.turns if self.by_turns else 1 - hold.strays
 
 
 def _name(group: tuple[Wire, ...]) -> str:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
 from wrapit.geometry import Region
 from wrapit.jig.contours import FlatDrawing
-from wrapit.jig.model import Part
+from wrapit.jig.model import Part, SameShape
 from wrapit.wires.model import Wire
 
 Wires = tuple[Wire, ...]
@@ -30,12 +30,24 @@ class View:
 class Handling:
     """What the steps of the guide say of a jig: in which one each wire is bent, and what else to mind.
 
-    `jig_of` has the jig's name by the wire's; `seats_mm` are the beads that go into seats first.
+    `jig_of` has the jig's name by the wire's; `same_as` has, for a wire that is bent in another's place as it
+    has its shape, that wire and whether it is turned over then; `seats_mm` are the beads that go into seats
+    first.
     """
 
     jig_of: Mapping[str, str]
+    same_as: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
     overbent: bool = False
     seats_mm: tuple[float, ...] = ()
+
+
+def handled_in(jig_of: Mapping[str, str], forms: Iterable[SameShape]) -> Handling:
+    """How wires are handled that lie in these jigs, and those that have the shape of one."""
+    forms = tuple(forms)
+    return Handling(
+        jig_of={**jig_of, **{form.wire: jig_of[form.like] for form in forms}},
+        same_as={form.wire: (form.like, form.mirrored) for form in forms},
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,12 @@ from typing import Any, Literal
 
 from shapely import Polygon
 
-from wrapit.geometry import Loop, Region
+from wrapit.geometry import FloatArray, Loop, Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.wires.model import Turn
+
+# A wire off by more than this is seen to be off: half a wire's thickness.
+SEEN_MM = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +85,7 @@ class Label:
 
 @dataclass(frozen=True, eq=False)
 class JigPlan:
-    """Which walls, holes, pins, labels and plate a jig for these wires has."""
+    """Which walls, holes, pins, labels and plate a jig for these wires has, and how they lie in it taut."""
 
     name: str
     wires: tuple[str, ...]
@@ -93,14 +96,55 @@ class JigPlan:
     labels: tuple[Label, ...] = ()
     screw_holes: tuple[Loop, ...] = ()
     seats: tuple[Seat, ...] = ()
+    laid: tuple[Course, ...] = ()
 
 
 @dataclass(frozen=True)
 class TurnSupport:
-    """Share of a turn's or long stretch's arc length that has wall at the right distance on the inside."""
+    """Share of a turn's or long stretch's arc length that has wall at the right distance inside."""
 
     turn: Turn
     share: float
+
+
+@dataclass(frozen=True)
+class Hold:
+    """How well a jig holds one wire: the supported share of its turns, the share of its length that strays.
+
+    A wire strays where, laid under tension, it lies more than half a millimetre off the drawing.
+    """
+
+    turns: float
+    strays: float
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """How one wire lies when it is laid under tension.
+
+    `taut` (m, 2) is its course, `at_mm` (n,) are places along the drawn wire, `drawn` (n, 2) their points,
+    `off_mm` (n,) how far from each the taut wire passes.
+    """
+
+    wire: str
+    taut: FloatArray
+    at_mm: FloatArray
+    drawn: FloatArray
+    off_mm: FloatArray
+
+    @property
+    def share_off(self) -> float:
+        """Share of the wire that lies more than SEEN_MM off."""
+        return float((self.off_mm > SEEN_MM).mean())
+
+
+@dataclass(frozen=True)
+class SameShape:
+    """A wire that has the shape of another, `like`; `mirrored`: once it is turned over."""
+
+    wire: str
+    like: str
+    mirrored: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +160,8 @@ class Part:
 class Jig:
     """One printable body with its proof: what was measured on the exact result.
 
-    `walls` are the exact wall faces after cutting, `plate` the plate's upper face, less holes and seats.
+    `walls` are the exact wall faces after cutting, `plate` the plate's upper face, less holes and seats,
+    `hemmed` the share of the wires' length with a wall close by on both sides.
     """
 
     name: str
@@ -130,6 +175,7 @@ class Jig:
     volume_mm3: float
     support: tuple[TurnSupport, ...]
     min_wall_to_wire_mm: float | None
+    hemmed: float
     size_mm: tuple[float, float, float]
 
 
@@ -137,9 +183,11 @@ class Jig:
 class JigSet:
     """All jigs of a piece; `split` is "per-wire" as soon as the wires are parted over several jigs.
 
-    `overbent` says that they bend each wire further than drawn, by what it springs back.
+    `forms` are wires that another's jig serves, as they have its shape. `overbent` says that they bend each
+    wire further than drawn, by what it springs back.
     """
 
     split: Literal["single", "per-wire"]
     jigs: tuple[Jig, ...]
+    forms: tuple[SameShape, ...] = ()
     overbent: bool = False

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -13,8 +14,9 @@ from wrapit.errors import UnheldError
 from wrapit.geometry import Arc, Edge, FloatArray, Line, Region
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.channel import Channels
-from wrapit.jig.model import Pin, TurnSupport
-from wrapit.jig.wall_ground import FACE_STEP_MM, face_probes, inside
+from wrapit.jig.model import SEEN_MM, Course, Pin, TurnSupport
+from wrapit.jig.wall_ground import FACE_STEP_MM, TOUCH_MM, face_probes, inside
+from wrapit.wires.model import Turn
 
 # How deep behind the place of its face a wall must be met to count: ten times what exact faces may stray
 # (1e-3 mm), so that only a wall at the right distance does. 30 % up or down moves support by 0.003 or less.
@@ -26,13 +28,22 @@ DISTANCE_STEP_MM = 0.03
 
 def turn_support(channels: Channels, walls: Sequence[Region]) -> tuple[TurnSupport, ...]:
     """For each turn or long stretch the share of its length that has wall at the right distance inside."""
+    return _support(channels, [polygon_of(wall, 1e-3) for wall in walls], PROBE_DEPTH_MM)
+
+
+def rough_support(channels: Channels, walls: Sequence[Any]) -> tuple[TurnSupport, ...]:
+    """The same from the walls' polygons, before they have exact faces."""
+    return _support(channels, walls, TOUCH_MM)
+
+
+def _support(channels: Channels, walls: Sequence[Any], depth_mm: float) -> tuple[TurnSupport, ...]:
     import shapely
 
-    tree = shapely.STRtree([polygon_of(wall, 1e-3) for wall in walls])
+    tree = shapely.STRtree(list(walls))
     shares = []
     for wire in channels.wires:
         for turn in wire.turns:
-            probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, PROBE_DEPTH_MM))
+            probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, depth_mm))
             hit = np.zeros(len(probes))
             hit[inside(tree, probes)[0]] = 1.0
             ends = np.ones(len(hit))
@@ -55,10 +66,23 @@ def stretch_support(support: Iterable[TurnSupport]) -> float:
     return held_share(one for one in support if one.turn.stretch)
 
 
-def with_pins(support: Iterable[TurnSupport], pins: Iterable[Pin]) -> tuple[TurnSupport, ...]:
-    """The support of each turn, where a pin in it holds it whole."""
+def really_held(
+    support: Iterable[TurnSupport], pins: Iterable[Pin], laid: Iterable[Course]
+) -> tuple[TurnSupport, ...]:
+    """The support of each turn, where what a pin holds, or where a taut wire keeps to the drawing, is held too."""
     pinned = {pin.turn for pin in pins}
-    return tuple(replace(one, share=1.0) if one.turn in pinned else one for one in support)
+    course_of = {course.wire: course for course in laid}
+    return tuple(
+        replace(one, share=1.0 if one.turn in pinned else max(one.share, kept(one.turn, course_of)))
+        for one in support
+    )
+
+
+def kept(turn: Turn, course_of: Mapping[str, Course]) -> float:
+    """The share of a turn along which its wire, laid under tension, keeps within SEEN_MM of the drawing."""
+    course = course_of[turn.wire]
+    along = (course.at_mm >= turn.start_mm) & (course.at_mm <= turn.end_mm)
+    return float((course.off_mm[along] <= SEEN_MM).mean()) if along.any() else 1.0
 
 
 def refuse_unheld(support: Iterable[TurnSupport], config: JigConfig) -> None:

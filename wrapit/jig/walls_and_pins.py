@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
-from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
+from wrapit.jig.model import Course, Hold, Hole, Pin, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_obstacles, hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes, pin_obstacles
-from wrapit.jig.support import turn_support
+from wrapit.jig.support import rough_support, support_by_wire, turn_support
 from wrapit.jig.wall_face import Face, wall_face
-from wrapit.jig.wrapping.courses import Course
 from wrapit.jig.wrapping.needs import planned_walls
 from wrapit.wires.model import Turn, Wire
 
@@ -57,12 +56,30 @@ def plan_walls(channels: Channels, config: JigConfig, pockets: Any) -> WallPlan:
 
 @dataclass(frozen=True, eq=False)
 class StandingWalls:
-    """Walls with nothing but the wires to mind, their exact faces, and what these hold of each turn."""
+    """Walls with nothing but the wires to mind; their exact faces are made once they are asked for."""
 
     channels: Channels
     plan: WallPlan
-    faces: tuple[Face, ...]
-    support: tuple[TurnSupport, ...]
+
+    @cached_property
+    def faces(self) -> tuple[Face, ...]:
+        """The walls' exact faces."""
+        return tuple(
+            wall_face(self.channels, Wall(turns, polygon, 0.0)) for polygon, turns in self.plan.polygons
+        )
+
+    @cached_property
+    def support(self) -> tuple[TurnSupport, ...]:
+        """What the exact faces hold of each turn."""
+        return turn_support(self.channels, [face.region for face in self.faces])
+
+    @cached_property
+    def how_well(self) -> dict[str, Hold]:
+        """How well each wire is held, by the polygons."""
+        shares = support_by_wire(rough_support(self.channels, [polygon for polygon, _ in self.plan.polygons]))
+        return {
+            course.wire: Hold(shares.get(course.wire, 1.0), course.share_off) for course in self.plan.laid
+        }
 
 
 @lru_cache(_REMEMBERED)
@@ -73,7 +90,13 @@ def standing_walls(wires: tuple[Wire, ...], config: JigConfig) -> StandingWalls:
     """
     import shapely
 
+    return walls_beside(wires, config, shapely.Polygon())
+
+
+def walls_beside(wires: tuple[Wire, ...], config: JigConfig, pockets: Any) -> StandingWalls:
+    """The walls of these wires; `pockets` (shapely) are kept free for something else.
+
+    Raises ValueError without wires or for wires of different diameters.
+    """
     channels = Channels.of(wires, config)
-    plan = plan_walls(channels, config, shapely.Polygon())
-    faces = tuple(wall_face(channels, Wall(turns, polygon, 0.0)) for polygon, turns in plan.polygons)
-    return StandingWalls(channels, plan, faces, turn_support(channels, [face.region for face in faces]))
+    return StandingWalls(channels, plan_walls(channels, config, pockets))

@@ -32,6 +32,7 @@ SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
 # How near free sides are to the polygon; nothing rests on them. At 0.0035 they have 7 % more cubics.
 # Nearer only where a curve is that they must not come too near to.
 FREE_TOLERANCES_MM = (0.005, 0.001)
+FEWEST_POINTS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,16 +132,19 @@ class Outliner:
         return [run.parallel.between(start, end)]
 
     def _free(self, points: FloatArray) -> list[Edge]:
-        """Fitted edges; straight ones from point to point where a fitted one would come too near a curve."""
+        """Fitted edges; ever shorter ones where one would come too near a curve, at last straight ones."""
         for tolerance_mm in FREE_TOLERANCES_MM:
             edges = fitted_edges(points, tolerance_mm)
             if all(self._clear(edge, points) for edge in edges):
                 return edges
+        if len(points) >= FEWEST_POINTS:
+            half = len(points) // 2
+            return [*self._free(points[: half + 1]), *self._free(points[half:])]
         thinned = _without_needless(points)
         return [Line(point_of(a), point_of(b)) for a, b in itertools.pairwise(thinned)]
 
     def _clear(self, edge: Edge, points: FloatArray) -> bool:
-        """Whether an edge comes no nearer to any curve than the largest distance, or no more so than the polygon."""
+        """Whether an edge keeps the largest distance from any curve, or as much of it as the polygon."""
         import shapely
 
         if isinstance(edge, Line):

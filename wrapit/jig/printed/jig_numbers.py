@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from wrapit.jig.made import reported
-from wrapit.jig.model import Jig, JigSet, TurnSupport
+from wrapit.jig.model import SEEN_MM, Course, Jig, JigSet, TurnSupport
 from wrapit.jig.support import stretch_support, total_support
 from wrapit.wires.model import Wire
 
@@ -36,9 +38,46 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
         "stretch_support": round(stretch_support(support), 4),
         "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
+        "taut": taut_numbers([course for jig in jigs.jigs for course in jig.plan.laid]),
+        "channel_share": round(_hemmed(jigs), 4),
+        **({"forms": _forms(jigs)} if jigs.forms else {}),
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [reported(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }
+
+
+def taut_numbers(laid: Sequence[Course]) -> dict[str, Any]:
+    """How far wires laid under tension lie off the drawing."""
+    off_mm = np.concatenate([course.off_mm for course in laid])
+    return {
+        "p95_mm": reported(np.quantile(off_mm, 0.95)),
+        "max_mm": reported(off_mm.max()),
+        "share_over_half_mm": round(float((off_mm > SEEN_MM).mean()), 4),
+        "by_wire": {
+            course.wire: {
+                "p95_mm": reported(np.quantile(course.off_mm, 0.95)),
+                "max_mm": reported(course.off_mm.max()),
+                "share_over_half_mm": round(course.share_off, 4),
+            }
+            for course in laid
+        },
+    }
+
+
+def _hemmed(jigs: JigSet) -> float:
+    lengths = [sum(float(course.at_mm[-1]) for course in jig.plan.laid) for jig in jigs.jigs]
+    return sum(jig.hemmed * mm for jig, mm in zip(jigs.jigs, lengths, strict=True)) / sum(lengths)
+
+
+def _forms(jigs: JigSet) -> list[dict[str, Any]]:
+    """Forms that serve several wires, each with its own wire first."""
+    forms = []
+    for jig in jigs.jigs:
+        for wire in jig.wires:
+            others = [[form.wire, form.mirrored] for form in jigs.forms if form.like == wire]
+            if others:
+                forms.append({"jig": jig.name, "wires": [[wire, False], *others]})
+    return forms
 
 
 def _turn_numbers(jig: Jig, support: TurnSupport) -> dict[str, Any]:

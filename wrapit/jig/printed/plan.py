@@ -7,13 +7,12 @@ from typing import Any
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
-from wrapit.jig.channel import Channels
 from wrapit.jig.model import JigPlan, Label, Plate, Wall
 from wrapit.jig.printed.labels import wire_labels
 from wrapit.jig.printed.plate import plate_outline
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
-from wrapit.jig.walls_and_pins import plan_walls, standing_walls
+from wrapit.jig.walls_and_pins import StandingWalls, standing_walls, walls_beside
 from wrapit.wires.model import Wire
 
 # Plate between a number's frame (which has its own gap) and walls, holes and screws.
@@ -22,19 +21,18 @@ LABEL_GAP_MM = 0.3
 
 def plan_jig(
     wires: tuple[Wire, ...], config: JigConfig, name: str = "jig"
-) -> tuple[JigPlan, tuple[Finding, ...]]:
-    """The plan of one jig that holds all these wires.
+) -> tuple[JigPlan, StandingWalls, tuple[Finding, ...]]:
+    """The plan of one jig that holds all these wires, and its walls.
 
     Raises JigError where the plate doesn't fit the bed or a seat is in a start hole's way, ValueError
     without wires or for wires of different diameters.
     """
     import shapely
 
-    standing = None if config.seats else standing_walls(wires, config)
-    channels = Channels.of(wires, config) if standing is None else standing.channels
-    seats = seats_of(config, channels.diameter_mm)
+    seats = seats_of(config, wires[0].diameter_mm)
     pockets = seat_obstacles(seats)
-    planned = plan_walls(channels, config, pockets) if standing is None else standing.plan
+    standing = standing_walls(wires, config) if not seats else walls_beside(wires, config, pockets)
+    channels, planned = standing.channels, standing.plan
     holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
     check_holes(seats, rims)
     heights = wall_heights(channels, [polygon for polygon, _ in planned.polygons], config)
@@ -54,8 +52,8 @@ def plan_jig(
             channels, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
-    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats)
-    return plan, (*planned.findings, *unlabelled)
+    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, planned.laid)
+    return plan, standing, (*planned.findings, *unlabelled)
 
 
 def _polygon(loop: Any) -> Any:

@@ -8,26 +8,44 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.channel import Channels
-from wrapit.jig.findings import support_findings, unheld_findings
+from wrapit.jig.findings import form_findings, stray_findings, support_findings, unheld_findings
 from wrapit.jig.grouping import parted
-from wrapit.jig.model import JigPlan, TurnSupport
+from wrapit.jig.model import Hold, JigPlan, SameShape, TurnSupport
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.seats import check_seats, seats_near
-from wrapit.jig.support import support_by_wire, turn_support, with_pins
-from wrapit.jig.wall_face import Face, plain_finding, wall_face
-from wrapit.jig.walls_and_pins import standing_walls
+from wrapit.jig.support import really_held
+from wrapit.jig.wall_face import Face, plain_finding
+from wrapit.jig.walls_and_pins import StandingWalls
+from wrapit.jig.wrapping.hemmed import hemmed_share
 from wrapit.wires.model import Wire
 
 
 @dataclass(frozen=True, eq=False)
+class PlannedJigs:
+    """The jigs of a piece, and the wires that another's jig serves as they have its shape."""
+
+    jigs: tuple[PlannedJig, ...]
+    forms: tuple[SameShape, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class PlannedJig:
-    """A plan with its exact wall faces and what they hold."""
+    """A plan with its walls, whose exact faces are made once they are asked for."""
 
     channels: Channels
     plan: JigPlan
-    faces: tuple[Face, ...]
-    support: tuple[TurnSupport, ...]
+    standing: StandingWalls
     findings: tuple[Finding, ...]
+
+    @property
+    def faces(self) -> tuple[Face, ...]:
+        """The walls' exact faces."""
+        return self.standing.faces
+
+    @property
+    def support(self) -> tuple[TurnSupport, ...]:
+        """What the faces hold of each turn."""
+        return self.standing.support
 
     @property
     def walls(self) -> tuple[Region, ...]:
@@ -40,19 +58,22 @@ class PlannedJig:
         return min((face.gap_mm for face in self.faces), default=None)
 
     @property
-    def by_wire(self) -> dict[str, float]:
-        """Supported share of each wire's turns."""
-        return support_by_wire(self.support)
+    def how_well(self) -> dict[str, Hold]:
+        """How well each wire is held."""
+        return self.standing.how_well
+
+    @property
+    def hemmed(self) -> float:
+        """Share of the wires' length with walls close by on both sides."""
+        return hemmed_share(self.channels, [wall.outline for wall in self.plan.walls])
 
     @property
     def held(self) -> tuple[TurnSupport, ...]:
-        """The support of each turn, pins counted."""
-        return with_pins(self.support, self.plan.pins)
+        """The support of each turn, with pins, and where the taut wire keeps to the drawing without a wall."""
+        return really_held(self.support, self.plan.pins, self.plan.laid)
 
 
-def plan_jigs(
-    wires: tuple[Wire, ...], config: JigConfig
-) -> tuple[tuple[PlannedJig, ...], tuple[Finding, ...]]:
+def plan_jigs(wires: tuple[Wire, ...], config: JigConfig) -> tuple[PlannedJigs, tuple[Finding, ...]]:
     """The printed jig of these wires, or several; and what the maker should know about them.
 
     Overbent wires (`springback: compensate`) get a jig each: they don't meet as drawn.
@@ -63,13 +84,14 @@ def plan_jigs(
     def plan(group: tuple[Wire, ...], name: str, others: tuple[Wire, ...]) -> PlannedJig:
         return _planned(group, seats_near(group, others, config) if others else config, name)
 
-    jigs, said = parted(wires, config, plan)
-    findings = [*said]
-    for jig in jigs:
-        findings += [*jig.findings, *plain_finding(jig.faces, jig.plan.name)]
-        findings += [*support_findings(jig.channels, jig.plan.pins, jig.support, config)]
+    parting = parted(wires, config, plan)
+    findings = [*parting.findings, *form_findings(parting.forms)]
+    for jig in parting.jigs:
+        laid = jig.plan.laid
+        findings += [*jig.findings, *plain_finding(jig.faces, jig.plan.name), *stray_findings(laid)]
+        findings += [*support_findings(jig.channels, jig.plan.pins, jig.support, laid, config)]
         findings += unheld_findings(jig.held, config)
-    return jigs, tuple(findings)
+    return PlannedJigs(parting.jigs, parting.forms), tuple(findings)
 
 
 def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
@@ -92,11 +114,5 @@ def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
 
 
 def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> PlannedJig:
-    plan, findings = plan_jig(wires, config, name)
-    if not config.seats:
-        standing = standing_walls(wires, config)
-        return PlannedJig(standing.channels, plan, standing.faces, standing.support, findings)
-    channels = Channels.of(wires, config)
-    faces = tuple(wall_face(channels, wall) for wall in plan.walls)
-    support = turn_support(channels, [face.region for face in faces])
-    return PlannedJig(channels, plan, faces, support, findings)
+    plan, standing, findings = plan_jig(wires, config, name)
+    return PlannedJig(standing.channels, plan, standing, findings)

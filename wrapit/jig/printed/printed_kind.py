@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.jig.made import Handling, JigMaker, Made, View, Wires
+from wrapit.jig.made import Handling, JigMaker, Made, View, Wires, handled_in
 from wrapit.jig.model import JigSet
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
 from wrapit.jig.support import held_share
 
 if TYPE_CHECKING:
-    from wrapit.jig.printed.planning import PlannedJig
+    from wrapit.jig.printed.planning import PlannedJigs
 
 
 def plan(wires: Wires, config: Config) -> Callable[[], Made]:
@@ -31,9 +32,7 @@ def make(wires: Wires, config: Config) -> Made:
     return plan(wires, config)()
 
 
-def _made(
-    planned: tuple[PlannedJig, ...], findings: tuple[Finding, ...], wires: Wires, config: Config
-) -> Made:
+def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, config: Config) -> Made:
     from wrapit.jig.printed.stage import build_planned
 
     jigs, more = build_planned(planned, config.jig)
@@ -51,13 +50,13 @@ def held(wires: Wires, config: Config) -> float:
     """The share of the turns and long stretches that the jig would hold."""
     from wrapit.jig.printed.planning import plan_jigs
 
-    return held_share(one for jig in plan_jigs(wires, config.jig)[0] for one in jig.held)
+    return held_share(one for jig in plan_jigs(wires, config.jig)[0].jigs for one in jig.held)
 
 
 def handling(jigs: JigSet) -> Handling:
     """What the guide's steps say of these jigs."""
-    return Handling(
-        jig_of={wire: jig.name for jig in jigs.jigs for wire in jig.wires},
+    return dataclasses.replace(
+        handled_in({wire: jig.name for jig in jigs.jigs for wire in jig.wires}, jigs.forms),
         overbent=jigs.overbent,
         seats_mm=tuple(seat.bead_mm for jig in jigs.jigs for seat in jig.plan.seats),
     )

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.model import Jig, JigSet, Part
-from wrapit.jig.printed.planning import PlannedJig, plan_jigs
+from wrapit.jig.printed.planning import PlannedJig, PlannedJigs, plan_jigs
 from wrapit.jig.printed.solid import jig_solid
 from wrapit.jig.support import refuse_unheld
 from wrapit.jig.wall_face import CLEARANCE_TOLERANCE_MM
@@ -27,32 +29,29 @@ def build_jig(wires: tuple[Wire, ...], config: JigConfig) -> tuple[JigSet, tuple
     return jigs, (*findings, *more)
 
 
-def plan_held(
-    wires: tuple[Wire, ...], config: JigConfig
-) -> tuple[tuple[PlannedJig, ...], tuple[Finding, ...]]:
+def plan_held(wires: tuple[Wire, ...], config: JigConfig) -> tuple[PlannedJigs, tuple[Finding, ...]]:
     """The plan of each jig, before any kernel.
 
     Raises JigError where no jig can be made or one fails its check, UnheldError where it would hold too
     little.
     """
     planned, findings = plan_jigs(wires, config)
-    refuse_unheld((one for jig in planned for one in jig.held), config)
-    for part in planned:
+    refuse_unheld((one for jig in planned.jigs for one in jig.held), config)
+    for part in planned.jigs:
         _check_gap(part)
     return planned, findings
 
 
-def build_planned(planned: tuple[PlannedJig, ...], config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
+def build_planned(planned: PlannedJigs, config: JigConfig) -> tuple[JigSet, tuple[Finding, ...]]:
     """The solids of planned jigs; a finding for each outline that the kernel takes as straight lines only.
 
     Raises KernelError where the kernel fails.
     """
-    built = [_built(part, config) for part in planned]
+    built = [_built(part, config) for part in planned.jigs]
     jigs = tuple(jig for jig, _ in built)
     findings = tuple(finding for _, plain in built for finding in plain)
-    return JigSet(
-        "single" if len(jigs) == 1 else "per-wire", jigs, overbent=config.springback == "compensate"
-    ), findings
+    split: Literal["single", "per-wire"] = "per-wire" if len(jigs) > 1 or planned.forms else "single"
+    return JigSet(split, jigs, planned.forms, overbent=config.springback == "compensate"), findings
 
 
 def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...]]:
@@ -74,6 +73,7 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
         volume_mm3=made.volume_mm3,
         support=part.support,
         min_wall_to_wire_mm=part.gap_mm,
+        hemmed=part.hemmed,
         size_mm=size_mm(made.solid),
     )
     return jig, tuple(_plain_outline(plan.name, place) for place in made.plain)

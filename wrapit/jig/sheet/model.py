@@ -8,7 +8,7 @@ from typing import Literal
 
 from wrapit.geometry import Region
 from wrapit.jig.contours import Contour
-from wrapit.jig.model import Pin
+from wrapit.jig.model import Pin, SameShape
 from wrapit.wires.model import Wire
 
 PartRole = Literal["bottom", "pocket plate", "island", "wall"]
@@ -81,11 +81,12 @@ class LaserJig:
     """All parts, their sheets, and the measurements; `wall_height_mm` is what stands above the plate.
 
     `pins` are nails or rods that stand in holes where a turn is too tight for a wall. `laid` are the wires
-    that each jig is for, by its name, as they lie in it.
+    that each jig is for, by its name, as they lie in it; `forms` are wires that have the shape of one.
     """
 
     parts: tuple[LaserPart, ...]
     laid: Mapping[str, tuple[Wire, ...]]
+    forms: tuple[SameShape, ...]
     sheets: tuple[LaserSheet, ...]
     kerf_mm: float
     fit_mm: float

@@ -6,7 +6,7 @@ from typing import Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.jig.made import GuidePage, Handling, JigMaker, Made, View, Wires
+from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires, handled_in
 from wrapit.jig.sheet.model import LaserJig
 from wrapit.jig.sheet.sheet_numbers import plate_numbers
 from wrapit.jig.support import held_share
@@ -46,7 +46,9 @@ def make(wires: Wires, config: Config) -> Made:
         findings=tuple(said),
         drawings=sheet_drawings(laser),
         views=_views(laser, wires),
-        handling=Handling({wire.name: name for name, mine in laser.laid.items() for wire in mine}),
+        handling=handled_in(
+            {wire.name: name for name, mine in laser.laid.items() for wire in mine}, laser.forms
+        ),
         page=GuidePage("laser", "Glue the laser-cut jig", "sheet/page.html.jinja", plan_laser_page(laser)),
     )
 
@@ -55,7 +57,7 @@ def held(wires: Wires, config: Config) -> float:
     """The share of the turns and long stretches that walls cut from sheet would hold."""
     from wrapit.jig.sheet.stage import plan_stacks
 
-    plans, _ = plan_stacks(wires, config.jig, config.plate)
+    plans, _, _ = plan_stacks(wires, config.jig, config.plate)
     return held_share(one for plan in plans.values() for one in plan.held)
 
 

@@ -13,7 +13,7 @@ from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Channels
 from wrapit.jig.grouping import parted
-from wrapit.jig.model import Hole, Pin, TurnSupport, Wall
+from wrapit.jig.model import Hold, Hole, Pin, SameShape, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
 from wrapit.jig.sheet.checks import LEAST_WEB_MM, check_sheets
@@ -21,7 +21,7 @@ from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed, stack_parts
 from wrapit.jig.sheet.shops import check_shop
-from wrapit.jig.support import refuse_unheld, support_by_wire, turn_support, with_pins
+from wrapit.jig.support import really_held, refuse_unheld, turn_support
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.walls_and_pins import standing_walls
 from wrapit.jig.wrapping.needs import planned_walls
@@ -45,33 +45,33 @@ def build_laser_jig(
     Raises JigError when there are no wires, UnheldError when walls cut from sheet would hold too little of
     them.
     """
-    plans, findings = plan_stacks(wires, jig_config, config)
+    plans, forms, findings = plan_stacks(wires, jig_config, config)
     refuse_unheld((one for plan in plans.values() for one in plan.held), jig_config)
-    laser, more = laser_jig(plans, jig_config, config)
+    laser, more = laser_jig(plans, forms, jig_config, config)
     return laser, (*findings, *more)
 
 
 def plan_stacks(
     wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
-) -> tuple[dict[str, LaserPlan], tuple[Finding, ...]]:
-    """The plan of each stack, by its name; and what the maker should know about them.
+) -> tuple[dict[str, LaserPlan], tuple[SameShape, ...], tuple[Finding, ...]]:
+    """The plan of each stack, by its name; wires that another's serves; what the maker should know.
 
     Which wires share a stack is decided with the widths of printed walls: a piece that is made in both ways
     has the same wires in each. Raises JigError when there are no wires.
     """
     if not wires:
         raise JigError("there are no wires to make a jig for")
-    groups, _ = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
+    parting = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
     plans: dict[str, LaserPlan] = {}
     findings: list[Finding] = []
-    for group in groups:
+    for group in parting.jigs:
         plans[group.name], more = plan_stack(group.wires, jig_config, config)
         findings += more
-    return plans, tuple(findings)
+    return plans, parting.forms, tuple(findings)
 
 
 def laser_jig(
-    plans: Mapping[str, LaserPlan], jig_config: JigConfig, config: PlateConfig
+    plans: Mapping[str, LaserPlan], forms: tuple[SameShape, ...], jig_config: JigConfig, config: PlateConfig
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
     """The parts of planned stacks, laid out on sheets and measured.
 
@@ -95,6 +95,7 @@ def laser_jig(
     jig_model = LaserJig(
         parts=tuple(parts),
         laid={name: plan.wires for name, plan in plans.items()},
+        forms=forms,
         sheets=sheets,
         kerf_mm=config.kerf,
         fit_mm=config.fit,
@@ -111,11 +112,11 @@ class _Grouped:
 
     name: str
     wires: tuple[Wire, ...]
-    by_wire: dict[str, float]
+    how_well: dict[str, Hold]
 
     @staticmethod
     def of(wires: tuple[Wire, ...], name: str, config: JigConfig) -> _Grouped:
-        return _Grouped(name, wires, support_by_wire(standing_walls(wires, config).support))
+        return _Grouped(name, wires, standing_walls(wires, config).how_well)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +163,7 @@ def plan_stack(
         for polygon, (_, turns) in zip(apart, polygons, strict=True)
     )
     walls = tuple(face.region for face in faces)
-    held = with_pins(turn_support(channels, walls), pins)
+    held = really_held(turn_support(channels, walls), pins, planned.laid)
     loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
     plan = LaserPlan(wires, walls, holes, pins, held)
     return plan, (*planned.findings, *plain_finding(faces, "laser-cut jig"), *loose)

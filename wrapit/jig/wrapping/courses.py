@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -12,38 +11,17 @@ import numpy as np
 from wrapit.geometry import FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.jig.channel import Channels
+from wrapit.jig.model import Course
 from wrapit.jig.taut.deviation import deviations
 from wrapit.jig.taut.shortest import FreeGround
 from wrapit.wires.model import Wire
 
 # How finely a drawn wire is looked at: half a tolerance of 0.35 mm and less.
 STEP_MM = 0.2
-# A wire off by more than this is seen to be off: half a wire's thickness.
-SEEN_MM = 0.5
 # What walls may lose of their corners' roundness before a wire is laid round them.
 SIMPLER_MM = 5e-3
 # How many wires are remembered with their places from one round of planning to the next.
 _REMEMBERED = 200
-
-
-@dataclass(frozen=True, eq=False)
-class Course:
-    """One wire laid under tension.
-
-    `taut` (m, 2) is its course, `at_mm` (n,) are places along the drawn wire, `drawn` (n, 2) their points,
-    `off_mm` (n,) how far from each the taut wire passes.
-    """
-
-    wire: str
-    taut: FloatArray
-    at_mm: FloatArray
-    drawn: FloatArray
-    off_mm: FloatArray
-
-    @property
-    def share_off(self) -> float:
-        """Share of the wire that lies more than SEEN_MM off."""
-        return float((self.off_mm > SEEN_MM).mean())
 
 
 def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:

@@ -16,8 +16,9 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
+from wrapit.jig.model import Course
 from wrapit.jig.wall_ground import wall_polygons
-from wrapit.jig.wrapping.courses import Course, courses
+from wrapit.jig.wrapping.courses import courses
 from wrapit.jig.wrapping.free_sides import free_sides
 from wrapit.wires.model import Side, Turn
 
@@ -25,6 +26,11 @@ from wrapit.wires.model import Side, Turn
 # already, but doesn't stand, or doesn't help. Of SAME_MM of a piece it doesn't matter whether it is planned.
 PIECES_MM = (4.0, 8.0, 12.0)
 SAME_MM = 0.5
+# A wire that strays further than FAR has lost its way round what should hold it: it gets pieces all along, each
+# APART from the next, as what is between may do without. What bends by less than STRAIGHT is straight.
+FAR_MM = 2.0
+APART_MM = 12.0
+STRAIGHT_RAD = 0.03
 # Walls on one side of a wire with less between them are one: as a multiple of the narrowest wall.
 JOINED = 3.0
 # Rounds of adding walls, after which what strays is reported as it is.
@@ -78,34 +84,57 @@ def _standing(
 
 
 def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
-    """A piece of wall for each stretch that strays, where it strays furthest; none where it has all."""
+    """Pieces of wall for each stretch that strays: where it strays furthest, and at others where it does far.
+
+    A place that has a wall already gets the next longer one, and at last none.
+    """
     strays = np.concatenate([[False], course.off_mm > tolerance_mm, [False]])
     starts, ends = (np.flatnonzero(np.diff(strays.astype(int)) == step) for step in (1, -1))
     for a, b in zip(starts, ends, strict=True):
-        worst = int(a + course.off_mm[a:b].argmax())
-        at_mm, side = float(course.at_mm[worst]), _side(course, worst)
-        for length_mm in PIECES_MM:
-            low, high = max(0.0, at_mm - length_mm / 2), min(float(course.at_mm[-1]), at_mm + length_mm / 2)
-            piece = Turn(course.wire, low, high, side, 0.0, stretch=True)
-            if not _planned(piece, held):
-                yield piece
+        chosen: list[float] = []
+        for place in a + np.argsort(-course.off_mm[a:b], kind="stable"):
+            at_mm = float(course.at_mm[place])
+            if chosen and course.off_mm[place] <= FAR_MM:
                 break
+            if all(abs(at_mm - other) >= APART_MM for other in chosen):
+                chosen.append(at_mm)
+                yield from _piece(course, int(place), held)
+
+
+def _piece(course: Course, place: int, held: Sequence[Turn]) -> Iterator[Turn]:
+    """The shortest piece of wall at a place that isn't planned yet, if there is one."""
+    at_mm, end_mm, side = float(course.at_mm[place]), float(course.at_mm[-1]), _side(course, place)
+    for length_mm in PIECES_MM:
+        low, high = max(0.0, at_mm - length_mm / 2), min(end_mm, at_mm + length_mm / 2)
+        piece = Turn(course.wire, low, high, side, 0.0, stretch=True)
+        if not _planned(piece, held):
+            yield piece
+            return
 
 
 def _side(course: Course, place: int) -> Side:
-    """To which side of the drawn wire the taut one strays there."""
-    point = course.drawn[place]
-    before, after = course.drawn[max(place - 1, 0)], course.drawn[min(place + 1, len(course.drawn) - 1)]
-    along = after - before
+    """Where a wall has to stand: to which side of the drawn wire the taut one strays.
+
+    One that strays far lies at no place of its own; there the drawn wire's own bend tells.
+    """
+    drawn = course.drawn
+    here = drawn[place]
+    if course.off_mm[place] > FAR_MM:
+        arm = max(1, int(PIECES_MM[0] / (course.at_mm[1] - course.at_mm[0])))
+        before, after = here - drawn[max(place - arm, 0)], drawn[min(place + arm, len(drawn) - 1)] - here
+        bend = before[0] * after[1] - before[1] * after[0]
+        if abs(bend) > STRAIGHT_RAD * np.linalg.norm(before) * np.linalg.norm(after):
+            return "left" if bend > 0 else "right"
+    along = drawn[min(place + 1, len(drawn) - 1)] - drawn[max(place - 1, 0)]
     start, end = course.taut[:-1], course.taut[1:]
     if not len(start):
         start = end = course.taut
     way = end - start
-    share = np.clip(((point - start) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-12), 0, 1)
+    share = np.clip(((here - start) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-12), 0, 1)
     feet = start + share[:, None] * way
     # Of all places of the taut wire the one that lies as far away as was measured.
-    apart = np.linalg.norm(feet - point, axis=1)
-    foot = feet[int(np.abs(apart - course.off_mm[place]).argmin())] - point
+    apart = np.linalg.norm(feet - here, axis=1)
+    foot = feet[int(np.abs(apart - course.off_mm[place]).argmin())] - here
     return "left" if along[0] * foot[1] - along[1] * foot[0] > 0 else "right"
 
 
