@@ -24,16 +24,22 @@ LONGEST_SIDE_PX = 1200
 SUPERSAMPLING = 3
 PAPER, PLATE, PLATE_EDGE, HOLE = (250, 249, 246), (224, 224, 222), (188, 188, 186), (120, 120, 118)
 WALL, WALL_EDGE, SHADOW = (190, 193, 198), (150, 153, 158), (196, 196, 194)
+TAUT, TAUT_MM = (40, 44, 52), 0.15
 MARGIN_MM = 3.0
 PIECE_MM = 1.5  # a wire is painted in pieces this short, which can't cross themselves
 
 
 def write_preview(
-    path: Path, wires: Sequence[Wire], walls: Sequence[Region] = (), plate: Region | None = None
+    path: Path,
+    wires: Sequence[Wire],
+    walls: Sequence[Region] = (),
+    plate: Region | None = None,
+    taut: Sequence[FloatArray] = (),
 ) -> None:
     """Write a PNG of plate, walls and wires from above; the same geometry gives the same bytes.
 
-    Later passes of a wire lie over earlier ones; light comes from the upper left.
+    Later passes of a wire lie over earlier ones; light comes from the upper left. `taut` are courses (m, 2)
+    that are drawn as thin lines over them.
     Raises ExportError when the file can't be written.
     """
     from PIL import Image, ImageDraw
@@ -48,6 +54,8 @@ def write_preview(
     _draw_walls(image, canvas, view, walls)
     for wire in wires:
         _draw_wire(canvas, view, wire)
+    for course in taut:
+        canvas.line(view.px(course), fill=TAUT, width=round(TAUT_MM * view.px_per_mm), joint="curve")
     small = image.resize(
         (view.size_px[0] // SUPERSAMPLING, view.size_px[1] // SUPERSAMPLING), Image.Resampling.BOX
     )

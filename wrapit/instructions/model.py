@@ -43,13 +43,17 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class WireSheet:
-    """Everything about the making of one wire; `ties` are met in this order, at mm from the mark."""
+    """Everything about the making of one wire; `ties` are met in this order, at mm from the mark.
+
+    `same_as` says which other wire's form it is made on, if it has that one's shape.
+    """
 
     number: int
     wire: Wire
     thickness: str
     tail_mm: float
     jig: str
+    same_as: str
     overbend: str
     steps: tuple[Step, ...]
     ties: tuple[tuple[Tie, float], ...]

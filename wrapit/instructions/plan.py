@@ -54,6 +54,7 @@ def plan_guide(
                 ties,
                 wire_config,
                 handling.jig_of.get(wire.name, "") if handling is not None else "",
+                _same_as(wire, handling),
                 overbent=handling is not None and handling.overbent,
             )
             for number, wire in enumerate(wires, start=1)
@@ -123,6 +124,7 @@ def _sheet(
     ties: Sequence[Tie],
     wire_config: WireConfig,
     jig: str,
+    same_as: str,
     overbent: bool,
 ) -> WireSheet:
     by_junction = {tie.junction: tie for tie in ties}
@@ -132,10 +134,20 @@ def _sheet(
         thickness=thickness(wire.diameter_mm),
         tail_mm=(wire.cut_length_mm - wire.length_mm) / 2,
         jig=jig,
+        same_as=same_as,
         overbend=_overbend(wire, wire_config, overbent),
         steps=_steps(number, wire, drawing, by_junction),
         ties=tuple((by_junction[binding.junction], binding.at_mm) for binding in wire.bindings),
     )
+
+
+def _same_as(wire: Wire, handling: Handling | None) -> str:
+    """Which form serves a wire that has the shape of another."""
+    if handling is None or wire.name not in handling.same_as:
+        return ""
+    like, mirrored = handling.same_as[wire.name]
+    made = f"It has the shape of wire {int(like.rsplit('-', 1)[1])}: make it on the same form"
+    return f"{made}, and turn it over when it is bent." if mirrored else f"{made}."
 
 
 def _steps(number: int, wire: Wire, drawing: Drawing, ties: dict[int, Tie]) -> tuple[Step, ...]:

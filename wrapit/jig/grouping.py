@@ -103,7 +103,9 @@ def parted(
     jigs = [part for group in grouped(held, turns, config) for part in well(group)]
     parts = tuple(jig for _, jig in sorted(jigs, key=lambda part: part[0][0].number))
     split = {name: hold for part in parts for name, hold in part.how_well.items()}
-    if all(rule.quality(split[name]) - shared[name] < rule.worth for name in weak):
+    gained = any(rule.quality(split[name]) - shared[name] >= rule.worth for name in weak)
+    lost = any(rule.quality(hold) < min(shared[name], rule.enough) for name, hold in split.items())
+    if lost or not gained:
         return Parting((single,))
     worst = min(weak, key=lambda name: (shared[name], name))
     said = split_finding(worst, single.how_well[worst], split[worst], len(parts), config)

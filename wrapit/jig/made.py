@@ -8,7 +8,7 @@ from typing import Any
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
-from wrapit.geometry import Region
+from wrapit.geometry import FloatArray, Region
 from wrapit.jig.contours import FlatDrawing
 from wrapit.jig.model import Part, SameShape
 from wrapit.wires.model import Wire
@@ -18,12 +18,16 @@ Wires = tuple[Wire, ...]
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A jig from above with wires laid in; without a plate it is the wires alone. `stem` names the file."""
+    """A jig from above with wires laid in; without a plate it is the wires alone. `stem` names the file.
+
+    `taut` are the courses (m, 2) of wires that stray visibly when they are laid under tension.
+    """
 
     stem: str
     wires: Wires
     walls: tuple[Region, ...] = ()
     plate: Region | None = None
+    taut: tuple[FloatArray, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,7 @@ def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: Jig
 
 def prolonged_mm(span: Turn, config: JigConfig) -> float:
     """How far a wall goes on beyond the ends of a span: a turn's to where the wire is straight again."""
-    return 0.0 if span.stretch else config.min_wall_width
+    return 0.0 if span.stretch or config.support == "taut" else config.min_wall_width
 
 
 @lru_cache(_REMEMBERED)

@@ -22,7 +22,7 @@ def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "
 
     for view in made.views:
         laid = wires if view.plate is None else view.wires
-        write_preview(folder / f"{view.stem}{suffix}.png", laid, view.walls, view.plate)
+        write_preview(folder / f"{view.stem}{suffix}.png", laid, view.walls, view.plate, view.taut)
 
 
 def write_drawings(folder: Path, made: Made, config: Config) -> None:

@@ -40,7 +40,7 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
         "taut": taut_numbers([course for jig in jigs.jigs for course in jig.plan.laid]),
         "channel_share": round(_hemmed(jigs), 4),
-        **({"forms": _forms(jigs)} if jigs.forms else {}),
+        "forms": _forms(jigs),
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [reported(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }

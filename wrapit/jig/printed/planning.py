@@ -69,7 +69,7 @@ class PlannedJig:
 
     @property
     def held(self) -> tuple[TurnSupport, ...]:
-        """The support of each turn, with pins, and where the taut wire keeps to the drawing without a wall."""
+        """The support of each turn, with pins, and where a taut wire keeps to the drawing without a wall."""
         return really_held(self.support, self.plan.pins, self.plan.laid)
 
 

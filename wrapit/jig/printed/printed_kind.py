@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
+from wrapit.geometry import FloatArray
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires, handled_in
-from wrapit.jig.model import JigSet
+from wrapit.jig.model import Jig, JigSet
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
 from wrapit.jig.support import held_share
@@ -66,15 +67,19 @@ def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
     """One view where one jig holds all wires; else the piece, and each jig with its own."""
     first = jigs.jigs[0]
     if len(first.wires) == len(wires):
-        return (View("preview", wires, first.walls, first.plate),)
+        return (View("preview", wires, first.walls, first.plate, _straying(first)),)
     mine = [tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigs.jigs]
     return (
         View("preview", wires),
         *(
-            View(f"preview-{jig.name}", held, jig.walls, jig.plate)
+            View(f"preview-{jig.name}", held, jig.walls, jig.plate, _straying(jig))
             for jig, held in zip(jigs.jigs, mine, strict=True)
         ),
     )
+
+
+def _straying(jig: Jig) -> tuple[FloatArray, ...]:
+    return tuple(course.taut for course in jig.plan.laid if course.share_off > 0)
 
 
 # The kind, as `jig.kinds` lists it.
