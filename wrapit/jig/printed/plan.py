@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import JigPlan, Label, Plate, Wall
 from wrapit.jig.printed.labels import wire_labels
-from wrapit.jig.printed.plate import plate_outline
+from wrapit.jig.printed.plate import plate_outline, polygon_within
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
 from wrapit.jig.walls_and_pins import plan_walls, standing_walls
@@ -49,16 +47,11 @@ def plan_jig(
     unlabelled: tuple[Finding, ...] = ()
     if config.numbers:
         taken = shapely.union_all([blocked, rims, *(wall.outline for wall in walls)]).buffer(LABEL_GAP_MM)
-        screwed = [_polygon(screw).buffer(LABEL_GAP_MM) for screw in screws]
+        screwed = [polygon_within(screw).buffer(LABEL_GAP_MM) for screw in screws]
         labels, unlabelled = wire_labels(
-            channels, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
+            channels, shapely.union_all([taken, *screwed]), polygon_within(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
     plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats)
     return plan, (*planned.findings, *unlabelled)
 
-
-def _polygon(loop: Any) -> Any:
-    import shapely
-
-    return shapely.Polygon(loop.sampled(0.01))

@@ -25,6 +25,9 @@ CROWN_FIT_MM = 0.001
 CROWN_NECK_MM = 0.02
 # A smaller top is left out (the wall ends at the step): less than one blob of a nozzle of 0.4 mm, 0.8 long.
 LEAST_CROWN_MM2 = 0.3
+# How near the plate's sides are to its outline: nothing rests on them. The butterfly's plate has 10 so, 20 at
+# 0.0025.
+RIM_SLACK_MM = 0.01
 
 
 def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Terraced:
@@ -45,7 +48,8 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
     through = [hole.outline for hole in plan.holes]
     through += [circle(pin.centre, pin.diameter_mm / 2) for pin in plan.pins]
     through += plan.screw_holes
-    return terraced_solid(plan.plate.outline.outer, 0.0, top, terraces, through, plan.name)
+    rim = plan.plate.outline.outer
+    return terraced_solid(rim, 0.0, top, terraces, through, plan.name, RIM_SLACK_MM)
 
 
 def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float) -> Terrace:
