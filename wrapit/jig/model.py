@@ -81,6 +81,14 @@ class Label:
 
 
 @dataclass(frozen=True, eq=False)
+class Course:
+    """Where the wires run, engraved as flat grooves with arrow heads."""
+
+    strokes: tuple[Region, ...]
+    depth_mm: float
+
+
+@dataclass(frozen=True, eq=False)
 class JigPlan:
     """Which walls, holes, pins, labels and plate a jig for these wires has."""
 
@@ -93,6 +101,7 @@ class JigPlan:
     labels: tuple[Label, ...] = ()
     screw_holes: tuple[Loop, ...] = ()
     seats: tuple[Seat, ...] = ()
+    course: Course | None = None
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,16 @@ from typing import Any
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
-from wrapit.kernel.edges import Followed, edges_of, followed, followed_loops, loop_edges, plane_face, turned, wire_of
+from wrapit.kernel.edges import (
+    Followed,
+    edges_of,
+    followed,
+    followed_loops,
+    loop_edges,
+    plane_face,
+    turned,
+    wire_of,
+)
 from wrapit.kernel.guard import REMEDY, guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
 from wrapit.kernel.plain import Plain

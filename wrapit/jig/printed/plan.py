@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
+from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.channel import Channels
-from wrapit.jig.model import JigPlan, Label, Plate, Wall
+from wrapit.jig.model import Course, JigPlan, Label, Plate, Wall
+from wrapit.jig.openings.pins import pin_discs
+from wrapit.jig.printed.course_groove import course_of
 from wrapit.jig.printed.labels import wire_labels
-from wrapit.jig.printed.plate import plate_outline, polygon_within
+from wrapit.jig.printed.plate import SAMPLED_MM, plate_outline, polygon_within
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
-from wrapit.jig.walls_and_pins import plan_walls, standing_walls
+from wrapit.jig.walls_and_pins import WallPlan, plan_walls, standing_walls
 from wrapit.wires.model import Wire
 
 # Plate between a number's frame (which has its own gap) and walls, holes and screws.
@@ -52,6 +57,18 @@ def plan_jig(
             channels, shapely.union_all([taken, *screwed]), polygon_within(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
-    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats)
+    course = _course(channels, planned, pockets, labels, config) if config.course else None
+    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, course)
     return plan, (*planned.findings, *unlabelled)
 
+
+def _course(
+    channels: Channels, planned: WallPlan, pockets: Any, labels: tuple[Label, ...], config: JigConfig
+) -> Course | None:
+    """The wires' course where nothing else is: openings, numbers and walls have priority."""
+    import shapely
+
+    walls = shapely.union_all([polygon for polygon, _ in planned.polygons])
+    numbers = [polygon_of(stroke, SAMPLED_MM) for label in labels for stroke in label.strokes]
+    kept_free = shapely.union_all([planned.rims, pockets, *pin_discs(planned.pins), *numbers])
+    return course_of(channels, walls, kept_free, config.base_thickness / 2)
