@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
 from wrapit.geometry import Edge
-from wrapit.geometry.outlines.loops import moved
+from wrapit.geometry.outlines.loops import Point, moved
 
 Layer = Literal["NOTE", "ENGRAVE", "SCORE", "CUT_INNER", "CUT_OUTER"]
 
@@ -56,3 +57,14 @@ class FlatDrawing:
     contours: tuple[Contour, ...]
     width_mm: float
     height_mm: float
+
+
+def arrow_head(back: Point, tip: Point, width_mm: float) -> tuple[Point, Point, Point]:
+    """One barb, the tip and the other barb of an arrow head whose barbs lie on both sides of `back`.
+
+    >>> arrow_head((0.0, 0.0), (3.0, 0.0), 2.0)
+    ((0.0, 1.0), (3.0, 0.0), (0.0, -1.0))
+    """
+    along = math.dist(back, tip)
+    across = width_mm / 2 * (tip[0] - back[0]) / along, width_mm / 2 * (tip[1] - back[1]) / along
+    return (back[0] - across[1], back[1] + across[0]), tip, (back[0] + across[1], back[1] - across[0])

@@ -84,6 +84,14 @@ class Label:
 
 
 @dataclass(frozen=True, eq=False)
+class Groove:
+    """Where the wires run, engraved as flat grooves with arrow heads."""
+
+    strokes: tuple[Region, ...]
+    depth_mm: float
+
+
+@dataclass(frozen=True, eq=False)
 class JigPlan:
     """Which walls, holes, pins, labels and plate a jig for these wires has, and how they lie in it taut."""
 
@@ -97,6 +105,7 @@ class JigPlan:
     screw_holes: tuple[Loop, ...] = ()
     seats: tuple[Seat, ...] = ()
     laid: tuple[Course, ...] = ()
+    groove: Groove | None = None
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,16 @@ from typing import Any
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
-from wrapit.kernel.edges import Followed, edges_of, followed_loops, loop_edges, plane_face, turned, wire_of
+from wrapit.kernel.edges import (
+    Followed,
+    edges_of,
+    followed,
+    followed_loops,
+    loop_edges,
+    plane_face,
+    turned,
+    wire_of,
+)
 from wrapit.kernel.guard import REMEDY, guarded
 from wrapit.kernel.measures import is_valid, volume_mm3
 from wrapit.kernel.plain import Plain
@@ -78,19 +87,21 @@ def terraced_solid(
     terraces: Sequence[Terrace],
     through: Sequence[Loop],
     where: str,
+    rim_slack_mm: float = RUN_TOLERANCE_MM,
 ) -> Terraced:
     """The solid between bottom and top inside the outline, with terraces and holes that don't touch.
 
+    Its outer sides are within `rim_slack_mm` of the outline: more where nothing rests on it, for fewer faces.
     Where that fails, outlines that bound no sound face become polygons of short lines, and `plain` names
     their places. Raises KernelError naming `where` if even then the outcome is not one valid solid with the
     volume that the outlines have by calculation.
     """
     try:
-        return _proven(outline, bottom_mm, top_mm, terraces, through, where)
+        return _proven(_rim(outline, rim_slack_mm), bottom_mm, top_mm, terraces, through, where)
     except KernelError:
         plain = Plain()
         with guarded("building the solid", where):
-            rim = plain.region(Region(outline)).outer
+            rim = _rim(plain.region(Region(outline), rim_slack_mm).outer, rim_slack_mm)
             holes = [plain.region(Region(hole)).outer for hole in through]
             raised = [_made_plain(terrace, plain) for terrace in terraces]
         if not plain.places:
@@ -99,13 +110,17 @@ def terraced_solid(
         return Terraced(made.solid, made.volume_mm3, tuple(plain.places))
 
 
+def _rim(outline: Loop, slack_mm: float) -> Followed:
+    return followed(turned(outline, counter_clockwise=True), slack_mm)
+
+
 def _made_plain(terrace: Terrace, plain: Plain) -> Terrace:
     upon = tuple(_made_plain(each, plain) for each in terrace.upon)
     return Terrace(plain.region(terrace.region, terrace.slack_mm), terrace.z_mm, upon, terrace.slack_mm)
 
 
 def _proven(
-    outline: Loop,
+    outline: Followed,
     bottom_mm: float,
     top_mm: float,
     terraces: Sequence[Terrace],
@@ -127,10 +142,10 @@ def _proven(
 
 
 def _expected_mm3(
-    outline: Loop, bottom_mm: float, top_mm: float, raised: Sequence[_Raised], through: Sequence[Loop]
+    outline: Followed, bottom_mm: float, top_mm: float, raised: Sequence[_Raised], through: Sequence[Loop]
 ) -> float:
     """The volume by exact areas and heights."""
-    area = abs(loop_area_mm2(outline)) - sum(abs(loop_area_mm2(hole)) for hole in through)
+    area = abs(outline.area_mm2) - sum(abs(loop_area_mm2(hole)) for hole in through)
     return area * (top_mm - bottom_mm) + _raised_mm3(raised, top_mm)
 
 
@@ -142,10 +157,9 @@ def _raised_mm3(raised: Sequence[_Raised], ground_mm: float) -> float:
 
 
 def _solid(
-    outline: Loop, bottom: float, top: float, raised: Sequence[_Raised], through: Sequence[Loop]
+    outline: Followed, bottom: float, top: float, raised: Sequence[_Raised], through: Sequence[Loop]
 ) -> Any:
-    rim = turned(outline, counter_clockwise=True)
-    floor_rim = wire_of(loop_edges(rim, bottom))
+    floor_rim = wire_of(edges_of(outline, bottom))
     faces, top_rim = _upright(floor_rim, top - bottom)
     drains, voids = [], []
     for hole in through:
@@ -155,7 +169,7 @@ def _solid(
         drains.append(floor_hole)
         voids.append((hole, top_hole))
     faces.append(plane_face(floor_rim, drains, bottom).Reversed())
-    faces += _tier((outline, top_rim), voids, top, raised)
+    faces += _tier((outline.loop, top_rim), voids, top, raised)
     return _closed(faces)
 
 

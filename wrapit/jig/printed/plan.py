@@ -7,12 +7,16 @@ from typing import Any
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.geometry import Region
-from wrapit.jig.model import JigPlan, Label, Plate, Wall
+from wrapit.geometry.outlines.polygons import polygon_of
+from wrapit.jig.channel import Channels
+from wrapit.jig.model import Groove, JigPlan, Label, Plate, Wall
+from wrapit.jig.openings.pins import pin_discs
+from wrapit.jig.printed.course_groove import groove_of
 from wrapit.jig.printed.labels import wire_labels
-from wrapit.jig.printed.plate import plate_outline
+from wrapit.jig.printed.plate import SAMPLED_MM, plate_outline, polygon_within
 from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
-from wrapit.jig.walls_and_pins import StandingWalls, standing_walls, walls_beside
+from wrapit.jig.walls_and_pins import StandingWalls, WallPlan, standing_walls, walls_beside
 from wrapit.wires.model import Wire
 
 # Plate between a number's frame (which has its own gap) and walls, holes and screws.
@@ -47,16 +51,23 @@ def plan_jig(
     unlabelled: tuple[Finding, ...] = ()
     if config.numbers:
         taken = shapely.union_all([blocked, rims, *(wall.outline for wall in walls)]).buffer(LABEL_GAP_MM)
-        screwed = [_polygon(screw).buffer(LABEL_GAP_MM) for screw in screws]
+        screwed = [polygon_within(screw).buffer(LABEL_GAP_MM) for screw in screws]
         labels, unlabelled = wire_labels(
-            channels, shapely.union_all([taken, *screwed]), _polygon(outline), config.base_thickness / 2
+            channels, shapely.union_all([taken, *screwed]), polygon_within(outline), config.base_thickness / 2
         )
     names = tuple(wire.name for wire in wires)
-    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, planned.laid)
+    groove = _groove(channels, planned, pockets, labels, config) if config.course else None
+    plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, planned.laid, groove)
     return plan, standing, (*planned.findings, *unlabelled)
 
 
-def _polygon(loop: Any) -> Any:
+def _groove(
+    channels: Channels, planned: WallPlan, pockets: Any, labels: tuple[Label, ...], config: JigConfig
+) -> Groove | None:
+    """The wires' course where nothing else is: openings, numbers and walls have priority."""
     import shapely
 
-    return shapely.Polygon(loop.sampled(0.01))
+    walls = shapely.union_all([polygon for polygon, _ in planned.polygons])
+    numbers = [polygon_of(stroke, SAMPLED_MM) for label in labels for stroke in label.strokes]
+    kept_free = shapely.union_all([planned.rims, pockets, *pin_discs(planned.pins), *numbers])
+    return groove_of(channels, walls, kept_free, config.base_thickness / 2)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 import shapely
 
 from wrapit.config import JigConfig
-from wrapit.geometry import Loop, Region
+from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
-from wrapit.geometry.outlines.polygons import fitted_edges, polygon_of, region_of
+from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.model import JigPlan, Seat
+from wrapit.jig.printed.course_groove import SLACK_MM as COURSE_SLACK_MM
+from wrapit.jig.printed.smoothed import smoothed
 
 if TYPE_CHECKING:
     from wrapit.kernel.terraces import Terrace, Terraced
@@ -25,10 +26,13 @@ CROWN_FIT_MM = 0.001
 CROWN_NECK_MM = 0.02
 # A smaller top is left out (the wall ends at the step): less than one blob of a nozzle of 0.4 mm, 0.8 long.
 LEAST_CROWN_MM2 = 0.3
+# How near the plate's sides are to its outline: nothing rests on them. The butterfly's plate has 10 so, 20 at
+# 0.0025.
+RIM_SLACK_MM = 0.01
 
 
 def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Terraced:
-    """One solid: plate with holes and seats, walls on it, numbers engraved.
+    """One solid: plate with holes and seats, walls on it, numbers and the wires' course engraved.
 
     Raises KernelError naming the jig.
     """
@@ -41,11 +45,15 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
     ]
     for label in plan.labels:
         terraces += [Terrace(stroke, top - label.depth_mm) for stroke in label.strokes]
+    if plan.groove is not None:
+        level = top - plan.groove.depth_mm
+        terraces += [Terrace(stroke, level, slack_mm=COURSE_SLACK_MM) for stroke in plan.groove.strokes]
     terraces += [_seat(seat, top) for seat in plan.seats]
     through = [hole.outline for hole in plan.holes]
     through += [circle(pin.centre, pin.diameter_mm / 2) for pin in plan.pins]
     through += plan.screw_holes
-    return terraced_solid(plan.plate.outline.outer, 0.0, top, terraces, through, plan.name)
+    rim = plan.plate.outline.outer
+    return terraced_solid(rim, 0.0, top, terraces, through, plan.name, RIM_SLACK_MM)
 
 
 def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float) -> Terrace:
@@ -63,7 +71,7 @@ def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float)
         crowns = [part for part in shapely.get_parts(crown) if part.area > LEAST_CROWN_MM2]
         if crowns:
             slack = CROWN_TOLERANCE_MM - CROWN_FIT_MM
-            upon = tuple(Terrace(_within(part, foot), crest, slack_mm=slack) for part in crowns)
+            upon = tuple(Terrace(_crown(part, foot), crest, slack_mm=slack) for part in crowns)
             return Terrace(region, crest - lead_in_mm, upon)
     return Terrace(region, crest)
 
@@ -76,26 +84,5 @@ def _seat(seat: Seat, ground_mm: float) -> Terrace:
     return Terrace(Region(seat.pocket), ground_mm - seat.depth_mm, (post,) if seat.post_mm else ())
 
 
-def _within(crown: shapely.Polygon, foot: shapely.Polygon) -> Region:
-    """The crown with smooth sides, or straight ones where smooth ones would cross or leave the wall."""
-    smooth = _fitted(crown)
-    sampled = polygon_of(smooth, 1e-3)
-    if sampled.is_valid and foot.contains_properly(sampled):
-        return smooth
-    return region_of(crown.simplify(CROWN_TOLERANCE_MM))
-
-
-def _fitted(polygon: shapely.Polygon) -> Region:
-    return Region(_fitted_loop(polygon.exterior), tuple(_fitted_loop(ring) for ring in polygon.interiors))
-
-
-def _fitted_loop(ring: shapely.LinearRing) -> Loop:
-    """A smooth loop through the ring, in two halves so that neither closes on itself."""
-    points = np.asarray(ring.coords)
-    half = int(np.linalg.norm(points - points[0], axis=1).argmax())
-    return Loop(
-        (
-            *fitted_edges(points[: half + 1], CROWN_FIT_MM),
-            *fitted_edges(points[half:], CROWN_FIT_MM),
-        )
-    )
+def _crown(crown: shapely.Polygon, foot: shapely.Polygon) -> Region:
+    return smoothed(crown, foot, CROWN_FIT_MM, CROWN_TOLERANCE_MM)

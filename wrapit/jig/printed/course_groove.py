@@ -1,0 +1,68 @@
+"""Where wires run on the plate: a shallow groove under each, with an arrow head near its start."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import shapely
+
+from wrapit.jig.channel import Channels
+from wrapit.jig.contours import arrow_head
+from wrapit.jig.model import Groove
+from wrapit.jig.printed.smoothed import smoothed
+
+# A line that a nozzle of 0.4 mm leaves open, two layers of 0.2 mm deep, as numbers are. Wire lies over it and
+# sinks in by less than a tenth of its diameter while the groove is 0.6 of that wide; a groove that would be
+# narrower than the nozzle's line is left out, which is so for wire under 0.67 mm.
+WIDTH_MM, LEAST_WIDTH_MM, DEPTH_MM = 0.6, 0.4, 0.4
+WIDTH_SHARE = 0.6
+# Plate that stays between the groove and what else there is on it (walls: as much as the wire leaves, less
+# RESERVE), and between two grooves: narrower webs don't print, so the grooves become one.
+WEB_MM = 0.3
+RESERVE_MM = 0.02
+# A shorter piece of groove says nothing: twice as long as it is wide.
+LEAST_MM2 = 0.72
+# An arrow head is seen on both sides of the wire that lies on it: 2 mm long and wide for wire of 1 mm. It
+# stands where the first MOST mm of the wire have room for all of it, else where most of it has room.
+HEAD_MM = 2.0
+FIRST_MM, MOST_MM, STEP_MM = 1.0, 12.0, 0.5
+HALF_A_HEAD = 0.5
+# How near the groove's sides are to the wire's parallels, and their faces to those: nobody sees either. The
+# butterfly has 119 faces so, 198 at a tenth of both.
+FIT_MM, SLACK_MM = 0.01, 0.02
+
+
+def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: float) -> Groove | None:
+    """The grooves of these wires, clear of walls and of what else is `kept_free` (shapely); None for thin wire."""
+    width = min(WIDTH_MM, WIDTH_SHARE * channels.diameter_mm)
+    if width < LEAST_WIDTH_MM:
+        return None
+    web = min(WEB_MM, channels.face_mm - width / 2 - RESERVE_MM)
+    free = shapely.union_all([walls.buffer(web), kept_free.buffer(WEB_MM)])
+    heads = [_head(channels, index, free) for index in range(len(channels.wires))]
+    lines = [line.buffer(width / 2, cap_style="flat") for line in channels.lines]
+    marked = shapely.union_all([*lines, *(head for head in heads if head is not None)])
+    whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2).difference(free)
+    # What is narrower than most of the groove was cut by an opening or a wall, and is left out.
+    thin = 0.4 * width
+    whole = whole.buffer(-thin, join_style="mitre").buffer(thin, join_style="mitre")
+    parts = [part for part in shapely.get_parts(whole) if part.area > LEAST_MM2]
+    room = shapely.box(*whole.buffer(1.0).bounds).difference(shapely.union_all([walls, kept_free]))
+    strokes = tuple(smoothed(part, room, FIT_MM, SLACK_MM) for part in parts)
+    return Groove(strokes, min(DEPTH_MM, most_depth_mm))
+
+
+def _head(channels: Channels, index: int, blocked: Any) -> Any:
+    """The triangle of a wire's arrow head, clear of what is blocked; None where there is no room for half."""
+    line = channels.lines[index]
+    best, most = None, HALF_A_HEAD * HEAD_MM**2 / 2
+    for at in np.arange(FIRST_MM, min(MOST_MM, line.length - HEAD_MM), STEP_MM):
+        back, tip = (line.interpolate(float(mm)).coords[0] for mm in (at, at + HEAD_MM))
+        head = shapely.Polygon(arrow_head(back, tip, HEAD_MM))
+        clear = head.difference(blocked)
+        if clear.area > most + 1e-6:
+            best, most = clear, clear.area
+        if clear.area > head.area - 1e-6:
+            break
+    return best
