@@ -43,3 +43,21 @@ def test_curves_that_do_not_lie_on_each_other_are_hardly_ever_compared(drawn, mo
     without_coincident(drawn(200), 0.5)
     # Of 19,900 pairs of the long lines, 5,000 cross; those at the most acute angles run on each other.
     assert len(compared) <= most
+
+
+@pytest.mark.parametrize("width", [0.1, 1.5, 5.0])
+@pytest.mark.parametrize("radius", [2.0, 4.0, 8.0])
+@pytest.mark.parametrize("beyond", [2.5, 6.0])
+def test_a_stroke_that_leaves_another_tangentially_does_so_where_they_part(radius, beyond, width):
+    # A line to the right, and an arc of 60 degrees out of it that runs on it for some way, in widths.
+    points = [np.linspace([-8, 0], [20, 0], 4)]
+    arm = 4 / 3 * np.tan(np.radians(60) / 4) * radius
+    turn = np.radians(60)
+    end = radius * np.array([np.sin(turn), 1 - np.cos(turn)])
+    arc = np.array([[0, 0], [arm, 0], end - arm * np.array([np.cos(turn), np.sin(turn)]), end])
+    before = np.linspace([-beyond, 0], [0, 0], 4)
+    drawn = [Curve(width * np.array(points), False), Curve(width * np.array([before, arc]), False)]
+    kept, doubles = without_coincident(drawn, width)
+    assert len(doubles) == 1
+    # On such an arc the last of the touch is 0.003 off, after 0.08 w times the root of the radius.
+    assert kept[-1].cubics[0, 0] == pytest.approx([0, 0], abs=0.1 * width * radius**0.5)

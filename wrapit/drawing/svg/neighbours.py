@@ -41,6 +41,12 @@ class Polyline:
         """Lower and upper corner around the points, (2,) each."""
         return self.points.min(axis=0), self.points.max(axis=0)
 
+    def covered(self, first: int, last: int) -> float:
+        """Length from one point to a later one; beyond the last point it goes round."""
+        count = len(self.points)
+        length = float(self.along[last % count] - self.along[first % count])
+        return length + (float(self.along[-1]) if last >= count or (length <= 0 and last > first) else 0.0)
+
 
 class Boxes:
     """The boxes around curves' control points, which hold the curves, widened on all sides."""
