@@ -74,8 +74,7 @@ def blob(seed: int) -> Region:
     grown = union_all([Point(c.centre).buffer(c.radius_mm + 1.0, quad_segs=128) for c in circles])
     largest = max(getattr(grown, "geoms", [grown]), key=lambda g: g.area)
     return Outliner.of(circles, (1.0,), 2e-3).region(largest)
-        max(getattr(grown, "geoms", [grown]), key=lambda g: g.area)
-    )
+
 
 
 @settings(max_examples=15)
