@@ -74,10 +74,13 @@ class FreeGround:
         if closed:
             loop = cyclic(passed)
             return belt(self.walker, loop) if len(loop) > 1 else whole[:1]
-        (ax, ay), (bx, by) = whole[0].tolist(), whole[-1].tolist()
+        # From end to end as moved: those lie inside of their triangles, where the drawn ones may lie on a side.
+        # A funnel that starts on its portal opens by half a turn and would take a corner for no need.
+        (ax, ay), (bx, by) = jogged[0].tolist(), jogged[-1].tolist()
         portals = self.walker.portals(passed)
         bends = shortest(Bend(ax, ay), Bend(bx, by), portals, self.walker.xs, self.walker.ys)
-        return np.array([(bend.x, bend.y) for bend in bends])
+        inner = [(bend.x, bend.y) for bend in bends[1:-1]]
+        return np.array([whole[0], *inner, whole[-1]])
 
 
 def _line(path: FloatArray) -> BaseGeometry:
