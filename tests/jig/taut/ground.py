@@ -61,9 +61,11 @@ def field_beside(
         elif kind == 1:
             made.append(shapely.box(x, y, x + rng.uniform(1, 5), y + rng.uniform(1, 5)))
         elif kind == 2:
-            made.append(shapely.MultiPoint(rng.uniform(-3, 3, (3, 2)) + (x, y)).convex_hull)
+            made.append(shapely.MultiPoint(np.add(rng.uniform(-3, 3, (3, 2)), (x, y))).convex_hull)
         else:
-            made.append(shapely.LineString([(x, y), tuple(rng.uniform(-8, 8, 2) + (x, y))]).buffer(0.4))
+            made.append(
+                shapely.LineString([(x, y), tuple(np.add(rng.uniform(-8, 8, 2), (x, y)))]).buffer(0.4)
+            )
     clear = shapely.LineString(path).buffer(RADIUS_MM + rng.uniform(0, 0.1))
     walls = shapely.union_all(made).difference(clear).buffer(-0.1).buffer(0.1)
     return shapely.MultiPolygon(
@@ -72,8 +74,9 @@ def field_beside(
 
 
 def elastic(obstacles: BaseGeometry, path: FloatArray, count: int, rounds: int) -> FloatArray:
-    """The path as an elastic band of `count` points: each is drawn to the middle of its neighbours, and pushed out of
-    the obstacles to the nearest place. It knows nothing of triangles.
+    """The path as an elastic band of `count` points. It knows nothing of triangles.
+
+    Each point is drawn to the middle of its neighbours, and pushed out of the obstacles to the nearest place.
     """
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
     at = np.linspace(0, along[-1], count)

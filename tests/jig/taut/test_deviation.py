@@ -23,7 +23,12 @@ def test_side_by_side_is_off_by_the_distance() -> None:
 
 
 def test_a_tooth_that_was_pulled_straight_is_off_by_its_height() -> None:
-    drawn = joined(line((0, 0), (10, 0)), line((10, 0), (15, 5))[1:], line((15, 5), (20, 0))[1:], line((20, 0), (30, 0))[1:])
+    drawn = joined(
+        line((0, 0), (10, 0)),
+        line((10, 0), (15, 5))[1:],
+        line((15, 5), (20, 0))[1:],
+        line((20, 0), (30, 0))[1:],
+    )
     assert deviations(drawn, np.array([(0.0, 0), (30, 0)])).max() == pytest.approx(5)
 
 
@@ -35,7 +40,7 @@ def test_a_loop_that_was_pulled_straight_counts_with_its_height() -> None:
 
 
 def test_a_place_that_is_passed_at_another_time_does_not_count() -> None:
-    """Drawn out along 0, up, and back along 4; taut goes back along 1: the way out is on it, the way back 3 off."""
+    """Drawn out along 0, up, and back along 4; taut back along 1: the way out is on it, the other 3 off."""
     drawn = joined(line((0, 0), (40, 0)), line((40, 0), (40, 4), 11)[1:], line((40, 4), (0, 4))[1:])
     taut = np.array([(0.0, 0), (40, 0), (40, 1), (0, 1)])
     off = deviations(drawn, taut)

@@ -23,8 +23,8 @@ HAIR_MM = 1e-3
 JOG_MM = 1e-7
 # Each is turned by the golden angle from the one before, so that neighbours never move alike.
 JOG_TURN_RAD = np.pi * (3 - np.sqrt(5))
-# Ground around everything: a taut wire never leaves the convex hull of obstacles and path, so any will do. In 150
-# random fields none, this, and a quarter of the field's size and more gave the same lengths in the same time.
+# Ground around everything: a taut wire never leaves the convex hull of obstacles and path, so any will do. In
+# 150 random fields none, this, and a quarter of the field's size and more gave the same lengths in the same time.
 MARGIN_MM = 1.0
 
 
@@ -41,8 +41,8 @@ class FreeGround:
     ) -> FreeGround:
         """`obstacles`: polygons, mm, already grown by the wire's radius.
 
-        They give way by a hair to `paths`, (n, 2) each, and to the stretch that closes those which are `closed`
-        (none by default), whether they repeat their first point or not.
+        They give way by a hair to `paths`, (n, 2) each, and to the stretch that closes those that are
+        `closed` (none by default), whether they repeat their first point or not.
 
         Raises `ValueError` where `closed` says of fewer or more paths than there are.
         """
@@ -65,8 +65,8 @@ class FreeGround:
         start (given twice or not) and nothing is held but by obstacles: the shortest loop, its last point the
         first again, where it passes the path's own start; a single point (1, 2) if no obstacle holds it.
 
-        Raises `ValueError` where the path leaves the ground, which one that was given to `around`, as closed if
-        it is, never does.
+        Raises `ValueError` where the path leaves the ground, which one that was given to `around`, as closed
+        if it is, never does.
         """
         whole = _whole(path, closed)
         jogged = _jogged(whole, closed)
@@ -77,7 +77,7 @@ class FreeGround:
         if closed:
             loop = cyclic(passed)
             return belt(self.walker, loop) if len(loop) > 1 else whole[:1]
-        # From end to end as moved: those lie inside of their triangles, where the drawn ones may lie on a side.
+        # From end to end as moved: those lie inside of their triangles, the drawn ones perhaps on a side.
         # A funnel that starts on its portal opens by half a turn and would take a corner for no need.
         (ax, ay), (bx, by) = jogged[0].tolist(), jogged[-1].tolist()
         portals = self.walker.portals(passed)
