@@ -24,7 +24,7 @@ JOG_MM = 1e-7
 # Each is turned by the golden angle from the one before, so that neighbours never move alike.
 JOG_TURN_RAD = np.pi * (3 - np.sqrt(5))
 # Ground around everything: a taut wire never leaves the convex hull of obstacles and path, so any will do. In
-# 150 random fields none, this, and a quarter of the field's size and more gave the same lengths in the same time.
+# 150 random fields none, this, and a quarter of the field's size gave the same lengths in the same time.
 MARGIN_MM = 1.0
 
 
