@@ -117,3 +117,15 @@ def test_an_elastic_band_comes_to_the_same(seed: int) -> None:
     # It cuts corners by its step: up to 1.7e-3 shorter was measured, and 0.08 mm beside the taut wire.
     assert length(band) == pytest.approx(length(found), rel=2.5e-3)
     assert shapely.LineString(band).hausdorff_distance(shapely.LineString(found)) < 0.12
+
+
+@few
+@given(seeds)
+def test_through_walls_it_is_no_longer_than_drawn_and_the_same_backwards(seed: int) -> None:
+    """Ends inside of walls that give way by a hair lie on sides of triangles."""
+    rng = np.random.default_rng(seed)
+    walls = shapely.union_all(shapely.points(rng.uniform(0, 40, (40, 2))).tolist()).buffer(3, quad_segs=6)
+    path = rng.uniform(0, 40, (int(rng.integers(2, 9)), 2))
+    found = pulled(walls, path)
+    assert length(found) <= length(path) + 1e-9
+    assert length(pulled(walls, path[::-1])) == pytest.approx(length(found), abs=1e-9)
