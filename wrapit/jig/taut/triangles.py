@@ -55,8 +55,9 @@ class Triangles:
         return deepest if depth[deepest] > -ROUNDING_MM else OUTSIDE
 
 
-# A place that lies no further outside of a triangle lies in it: ten times what doubles lose at coordinates of
-# 1000 mm, a hundredth of the hair that keeps paths off the ground's edge.
+# A place that lies no further outside of a triangle lies in it: far more than doubles lose at coordinates
+# of 1000 mm (1e-13), a millionth of the hair that keeps paths off the ground's edge. Starts in 400 random
+# fields of 40 mm lay at least 8e-6 inside: it takes effect only for what was not given to `around`.
 ROUNDING_MM = 1e-9
 
 

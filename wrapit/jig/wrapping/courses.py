@@ -36,7 +36,8 @@ def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:
         SIMPLER_MM
     )
     places = [_places(wire) for wire in channels.wires]
-    ground = FreeGround.around(grown, [points for _, points in places])
+    closed = [wire.closed for wire in channels.wires]
+    ground = FreeGround.around(grown, [points for _, points in places], closed)
     return tuple(
         _course(wire.name, ground.pulled(points, closed=wire.closed), at_mm, points)
         for wire, (at_mm, points) in zip(channels.wires, places, strict=True)
