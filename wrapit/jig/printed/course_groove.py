@@ -28,6 +28,8 @@ LEAST_MM2 = 0.72
 HEAD_MM = 2.0
 FIRST_MM, MOST_MM, STEP_MM = 1.0, 12.0, 0.5
 HALF_A_HEAD = 0.5
+# Corners up to a right angle stay sharp; more pointed ones would reach into what is kept free.
+BLUNT = 1.45
 # How near the groove's sides are to the wire's parallels, and their faces to those: nobody sees either. The
 # butterfly has 119 faces so, 198 at a tenth of both.
 FIT_MM, SLACK_MM = 0.01, 0.02
@@ -46,7 +48,8 @@ def course_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2).difference(free)
     # What is narrower than most of the groove was cut by an opening or a wall, and is left out.
     thin = 0.4 * width
-    whole = whole.buffer(-thin, join_style="mitre").buffer(thin, join_style="mitre")
+    whole = whole.buffer(-thin, join_style="mitre")
+    whole = whole.buffer(thin, join_style="mitre", mitre_limit=BLUNT)
     parts = [part for part in shapely.get_parts(whole) if part.area > LEAST_MM2]
     room = shapely.box(*whole.buffer(1.0).bounds).difference(shapely.union_all([walls, kept_free]))
     strokes = tuple(smoothed(part, room, FIT_MM, SLACK_MM) for part in parts)
