@@ -41,7 +41,7 @@ FIT_MM, SLACK_MM = 0.02, 0.03
 
 
 def course_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: float) -> Course | None:
-    """The grooves of these wires, clear of walls and what else is `kept_free` (shapely); None for thin wire."""
+    """The grooves of these wires, clear of walls and all else `kept_free` (shapely); None for thin wire."""
     width = min(WIDTH_MM, WIDTH_SHARE * channels.diameter_mm)
     if width < LEAST_WIDTH_MM:
         return None
