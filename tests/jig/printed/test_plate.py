@@ -1,4 +1,4 @@
-"""The plate: it holds everything with its margin, follows the piece, fits the bed, shows the wires' course."""
+"""The plate: it holds all with its margin, follows the piece, fits the bed, shows the wires' course."""
 
 from __future__ import annotations
 
