@@ -113,7 +113,7 @@ class JigConfig(Block):
     """Plate around the walls and wires; without any, walls end on its edge and the solid is not sound."""
 
     corner_radius: Annotated[float, length("0 mm", "200 mm", "3 mm")] = 3.0
-    """Rounding of the plate's corners; a fitted plate's margin is no less than this, so that all are as round."""
+    """Rounding of the plate's corners; a fitted plate's margin is no less, so that all are as round."""
 
     min_hole: Annotated[float, length("0.1 mm", "50 mm", "2 mm")] = 2.0
     """Smallest start hole; thicker wires get their diameter + 0.5 mm."""

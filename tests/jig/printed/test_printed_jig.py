@@ -121,7 +121,7 @@ def test_walls_rise_where_wires_cross() -> None:
     heights = {wall.turns[0].wire: wall.height_mm for wall in jig.plan.walls}
     assert heights["wire-03"] == pytest.approx(4.0)
     assert max(wall.height_mm for wall in jig.plan.walls) == pytest.approx(3 * AWG18_MM + 1.5)
-    assert jig.size_mm[2] == pytest.approx(3.0 + 3 * AWG18_MM + 1.5, abs=1e-3)
+    assert jig.size_mm[2] == pytest.approx(2.4 + 3 * AWG18_MM + 1.5, abs=1e-3)
 
 
 def test_numbers_are_engraved_or_missed() -> None:
@@ -141,7 +141,8 @@ def test_plate_must_fit_the_bed() -> None:
 
 
 def test_screw_holes_go_through_the_corners() -> None:
-    plain, screwed = only([circle(10)]), only([circle(10)], screw_hole="3 mm")
+    plain = only([circle(10)], plate="rectangle")
+    screwed = only([circle(10)], plate="rectangle", screw_hole="3 mm")
     assert len(screwed.plate.holes) == len(plain.plate.holes) + 4
     width, depth, _ = screwed.size_mm
     for hole in screwed.plan.screw_holes:

@@ -16,7 +16,7 @@ from wrapit.config import PlateConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.loops import rounded_rectangle
-from wrapit.jig.sheet.engraving import wire_numbers
+from wrapit.jig.sheet.engraving import engraved_wires, wire_numbers
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed
@@ -124,6 +124,20 @@ def test_wire_numbers_are_engraved_where_there_is_room() -> None:
     assert not left
     tight = Region(rounded_rectangle(20, 20, 24, 24, 0))
     assert wire_numbers(wires, tight) == ((), wires)
+
+
+def test_an_arrow_head_is_engraved_near_each_start() -> None:
+    wires = woven(4)
+    plate = Region(rounded_rectangle(-20, -20, 60, 60, 0))
+    heads = [contour.edges for contour in engraved_wires(wires, plate) if len(contour.edges) == 2]
+    assert len(heads) == len(wires)
+    for wire, (first, second) in zip(wires, heads, strict=True):
+        tip, barbs = np.array(first.end), (np.array(first.start) + np.array(second.end)) / 2
+        start, onwards = wire.centreline.at(np.array([0.0, 0.05 * wire.centreline.domain[1]]))
+        assert np.linalg.norm(tip - start) < 14
+        assert (tip - barbs) @ (onwards - start) > 0
+    tight = Region(rounded_rectangle(20, 20, 21, 21, 0))
+    assert not [contour for contour in engraved_wires(wires, tight) if len(contour.edges) == 2]
 
 
 def test_reference_bar_is_a_hundred_millimetres_long() -> None:

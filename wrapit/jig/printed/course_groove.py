@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 import shapely
 
+from wrapit.geometry import FloatArray
+from wrapit.geometry.outlines.polygons import CORNER_RAD
 from wrapit.jig.channel import Channels
 from wrapit.jig.contours import arrow_head
 from wrapit.jig.model import Groove
 from wrapit.jig.printed.smoothed import smoothed
 
 # A line that a nozzle of 0.4 mm leaves open, two layers of 0.2 mm deep, as numbers are. Wire lies over it and
-# sinks in by less than a tenth of its diameter while the groove is 0.6 of that wide; a groove that would be
+# sinks in by a tenth of its diameter at most, as the groove is no wider than 0.6 of that; one that would be
 # narrower than the nozzle's line is left out, which is so for wire under 0.67 mm.
 WIDTH_MM, LEAST_WIDTH_MM, DEPTH_MM = 0.6, 0.4, 0.4
 WIDTH_SHARE = 0.6
@@ -28,13 +30,18 @@ LEAST_MM2 = 0.72
 HEAD_MM = 2.0
 FIRST_MM, MOST_MM, STEP_MM = 1.0, 12.0, 0.5
 HALF_A_HEAD = 0.5
+# Corners up to a right angle stay sharp; more pointed ones would reach into what is kept free.
+BLUNT = 1.45
+# Shorter sides between two corners are left out, as the nozzle rounds them away: the butterfly's grooves have
+# 100 sides with them.
+BEVEL_MM = 0.25
 # How near the groove's sides are to the wire's parallels, and their faces to those: nobody sees either. The
-# butterfly has 119 faces so, 198 at a tenth of both.
-FIT_MM, SLACK_MM = 0.01, 0.02
+# butterfly's grooves have 67 sides so, 70 at 0.01 and 0.02.
+FIT_MM, SLACK_MM = 0.02, 0.03
 
 
 def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: float) -> Groove | None:
-    """The grooves of these wires, clear of walls and of what else is `kept_free` (shapely); None for thin wire."""
+    """The grooves of these wires, clear of walls and all else `kept_free` (shapely); None for thin wire."""
     width = min(WIDTH_MM, WIDTH_SHARE * channels.diameter_mm)
     if width < LEAST_WIDTH_MM:
         return None
@@ -43,14 +50,47 @@ def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     heads = [_head(channels, index, free) for index in range(len(channels.wires))]
     lines = [line.buffer(width / 2, cap_style="flat") for line in channels.lines]
     marked = shapely.union_all([*lines, *(head for head in heads if head is not None)])
-    whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2).difference(free)
+    whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2, join_style="mitre", mitre_limit=BLUNT)
+    whole = whole.difference(free)
     # What is narrower than most of the groove was cut by an opening or a wall, and is left out.
     thin = 0.4 * width
-    whole = whole.buffer(-thin, join_style="mitre").buffer(thin, join_style="mitre")
-    parts = [part for part in shapely.get_parts(whole) if part.area > LEAST_MM2]
+    whole = whole.buffer(-thin, join_style="mitre")
+    whole = whole.buffer(thin, join_style="mitre", mitre_limit=BLUNT)
+    parts = [_pointed(part) for part in shapely.get_parts(whole) if part.area > LEAST_MM2]
+    parts = _apart(sorted(parts, key=lambda part: (-part.area, part.bounds)))
+    if not parts:
+        return None
     room = shapely.box(*whole.buffer(1.0).bounds).difference(shapely.union_all([walls, kept_free]))
     strokes = tuple(smoothed(part, room, FIT_MM, SLACK_MM) for part in parts)
     return Groove(strokes, min(DEPTH_MM, most_depth_mm))
+
+
+def _apart(parts: list[shapely.Polygon]) -> list[shapely.Polygon]:
+    """The parts without those that all but touch a larger one: their sides might cross."""
+    kept: list[shapely.Polygon] = []
+    for part in parts:
+        if all(part.distance(other) > 4 * SLACK_MM for other in kept):
+            kept.append(part)
+    return kept
+
+
+def _pointed(polygon: shapely.Polygon) -> shapely.Polygon:
+    """The polygon with one corner in place of two that are nearer than BEVEL_MM."""
+    rings = [_pointed_ring(np.asarray(ring.coords)[:-1]) for ring in (polygon.exterior, *polygon.interiors)]
+    pointed = shapely.Polygon(rings[0], rings[1:])
+    return pointed if pointed.is_valid else polygon
+
+
+def _pointed_ring(points: FloatArray) -> FloatArray:
+    """One ring (n, 2) of them, not closed."""
+    along = np.roll(points, -1, axis=0) - points
+    heading = np.arctan2(along[:, 1], along[:, 0])
+    bend = np.abs((heading - np.roll(heading, 1) + np.pi) % (2 * np.pi) - np.pi)
+    corner = bend > CORNER_RAD
+    bevel = corner & np.roll(corner, -1) & (np.hypot(*along.T) < BEVEL_MM)
+    bevel &= ~np.roll(bevel, 1)  # of two in a row the first
+    middles = np.where(bevel[:, None], points + along / 2, points)
+    return middles[~np.roll(bevel, 1)]
 
 
 def _head(channels: Channels, index: int, blocked: Any) -> Any:

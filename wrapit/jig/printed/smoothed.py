@@ -1,4 +1,4 @@
-"""Polygons with smooth sides, for outlines that no wire touches: few long faces instead of many short ones."""
+"""Polygons with smooth sides, for outlines that no wire touches: few long faces, not many short ones."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from wrapit.geometry.outlines.polygons import fitted_edges, polygon_of, region_o
 
 
 def smoothed(polygon: shapely.Polygon, within: shapely.Geometry, fit_mm: float, straight_mm: float) -> Region:
-    """The polygon with sides fitted within `fit_mm`, or straight ones where those would cross or leave `within`.
+    """The polygon with sides fitted within `fit_mm`, where these don't cross and stay `within` (shapely).
 
-    Straight ones are within `straight_mm`.
+    Else with straight ones within `straight_mm`.
     """
     smooth = Region(
         _fitted_loop(polygon.exterior, fit_mm),

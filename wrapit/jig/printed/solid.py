@@ -26,8 +26,8 @@ CROWN_FIT_MM = 0.001
 CROWN_NECK_MM = 0.02
 # A smaller top is left out (the wall ends at the step): less than one blob of a nozzle of 0.4 mm, 0.8 long.
 LEAST_CROWN_MM2 = 0.3
-# How near the plate's sides are to its outline: nothing rests on them. The butterfly's plate has 10 so, 20 at
-# 0.0025.
+# How near the plate's sides are to its outline: nothing rests on them. The butterfly's plate has 10 so, 11
+# at 0.005.
 RIM_SLACK_MM = 0.01
 
 

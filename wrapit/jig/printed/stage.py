@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Literal
+import dataclasses
+from typing import TYPE_CHECKING, Literal
 
 from wrapit.config import JigConfig
-from wrapit.errors import Finding, JigError
+from wrapit.errors import Finding, JigError, KernelError
 from wrapit.geometry import Region
-from wrapit.jig.model import Jig, JigSet, Part
+from wrapit.jig.model import Jig, JigPlan, JigSet, Part
 from wrapit.jig.printed.planning import PlannedJig, PlannedJigs, plan_jigs
 from wrapit.jig.printed.solid import jig_solid
 from wrapit.jig.support import refuse_unheld
 from wrapit.jig.wall_face import CLEARANCE_TOLERANCE_MM
 from wrapit.wires.model import Wire
+
+if TYPE_CHECKING:
+    from wrapit.kernel.terraces import Terraced
 
 # Light grey: wires of every metal stand out against it.
 COLOUR = "#c8ccd4"
@@ -55,10 +59,9 @@ def build_planned(planned: PlannedJigs, config: JigConfig) -> tuple[JigSet, tupl
 
 
 def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...]]:
-    made = jig_solid(part.plan, part.walls, config)
+    plan, made, findings = _solid(part, config)
     from wrapit.kernel.measures import count_solids, size_mm
 
-    plan = part.plan
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
     openings += [seat.pocket for seat in plan.seats]
     jig = Jig(
@@ -76,7 +79,28 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
         hemmed=part.hemmed,
         size_mm=size_mm(made.solid),
     )
-    return jig, tuple(_plain_outline(plan.name, place) for place in made.plain)
+    return jig, (*findings, *(_plain_outline(plan.name, place) for place in made.plain))
+
+
+def _solid(part: PlannedJig, config: JigConfig) -> tuple[JigPlan, Terraced, tuple[Finding, ...]]:
+    """The plan as it is built, its solid, and a note where that is sound only without the wires' course."""
+    try:
+        return part.plan, jig_solid(part.plan, part.walls, config), ()
+    except KernelError:
+        if part.plan.groove is None:
+            raise
+        plan = dataclasses.replace(part.plan, groove=None)
+        return plan, jig_solid(plan, part.walls, config), (_no_course(plan.name),)
+
+
+def _no_course(jig: str) -> Finding:
+    return Finding(
+        "note",
+        "no-course",
+        jig,
+        "with the wires' course engraved it would be no sound solid, so its plate has no grooves",
+        "nothing needs to be done; the guide shows where the wires run",
+    )
 
 
 def _plain_outline(jig: str, place: str) -> Finding:

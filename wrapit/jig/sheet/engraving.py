@@ -12,8 +12,9 @@ from wrapit.geometry import BezierChain, FloatArray, Region
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
+from wrapit.geometry.outlines.loops import Line, point_of
 from wrapit.geometry.polyline import at_lengths, lengths
-from wrapit.jig.contours import Contour
+from wrapit.jig.contours import Contour, arrow_head
 from wrapit.jig.lettering import engraved_text, text_size_mm
 from wrapit.jig.sheet.inlays import polygon_of
 from wrapit.wires.model import Wire
@@ -31,12 +32,34 @@ LARGEST_LABEL_MM = 4.0
 # A wire's line on the plate ends within STEP of where it leaves it; shorter remains than SHORTEST are dots.
 _STEP_MM = 0.05
 _SHORTEST_MM = 0.5
+# An arrow head is as long and wide as two wires of 1 mm, so that it is seen beside one; it stands within the
+# first 12 mm, where there is room for all of it.
+_HEAD_MM, _HEAD_WITHIN_MM, _HEAD_STEP_MM = 2.0, 12.0, 0.5
 
 
 def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
-    """Wire paths on the plate, clear of its edges; what is run along twice is engraved once."""
+    """Wire paths on the plate, clear of its edges, with an arrow head near each start.
+
+    What is run along twice is engraved once.
+    """
     area = polygon_of(plate).buffer(-CLEAR_MM)
-    return tuple(Contour("ENGRAVE", (part,)) for chain in _runs(wires) for part in parts_inside(chain, area))
+    runs = [Contour("ENGRAVE", (part,)) for chain in _runs(wires) for part in parts_inside(chain, area)]
+    heads = [head for wire in wires if (head := _arrow_head(wire, area)) is not None]
+    return (*runs, *heads)
+
+
+def _arrow_head(wire: Wire, area: BaseGeometry) -> Contour | None:
+    """Two strokes that point the way of the wire, as near to its start as both have room; None without."""
+    from shapely import LineString
+
+    dense = chain_of(wire.centreline).sampled(0.02)
+    reach = lengths(dense)
+    for at in np.arange(0.0, min(_HEAD_WITHIN_MM, reach[-1] - _HEAD_MM), _HEAD_STEP_MM):
+        back, tip = at_lengths(dense, reach, np.array([at, at + _HEAD_MM]))
+        corners = arrow_head(point_of(back), point_of(tip), _HEAD_MM)
+        if area.contains(LineString(corners)):
+            return Contour("ENGRAVE", tuple(Line(a, b) for a, b in itertools.pairwise(corners)))
+    return None
 
 
 def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, ...], tuple[Wire, ...]]:
