@@ -83,7 +83,8 @@ def _measured(name: str, config: Config, rule: str) -> tuple[float, ...] | None:
 
 def _words(row: tuple[float, ...]) -> str:
     jigs, hemmed, area, p95, share = row
-    return f" jigs {jigs:4.1f}  hemmed {hemmed:.3f}  walls {area:5.0f} mm²  p95 {p95:.2f} mm  over .5: {share:.3f}"
+    held = f"hemmed {hemmed:.3f}  walls {area:5.0f} mm²  p95 {p95:.2f} mm  over .5: {share:.3f}"
+    return f" jigs {jigs:4.1f}  {held}"
 
 
 def _printed(name: str, config: Config) -> None:

@@ -28,7 +28,7 @@ from wrapit.jig.support import (
     with_pins,
 )
 from wrapit.jig.wall_ground import inside
-from wrapit.wires.model import Turn
+from wrapit.wires.model import Side, Turn
 
 REACH_MM = AWG18_MM / 2 + 0.2
 
@@ -91,7 +91,7 @@ def test_measured_gap_sees_a_wall_that_is_too_near() -> None:
     plan, _ = plan_jig(wires, near)
     walls = [Channels.of(wires, near).outliner.region(wall.outline) for wall in plan.walls]
     gap, _ = min_wall_to_wire_mm(Channels.of(wires, wide), walls)
-    assert gap == pytest.approx(0.2, abs=1e-4)
+    assert gap == pytest.approx(0.1, abs=1e-4), "the face that holds the wire stands the inside gap away"
 
 
 places = st.lists(st.tuples(*[st.integers(-12, 12).map(lambda k: k / 2)] * 2), min_size=1, max_size=30)
@@ -107,17 +107,22 @@ def test_probes_are_inside_as_the_plain_query_says(
     assert sorted(zip(*inside(tree, probes), strict=True)) == sorted(zip(*plain, strict=True))
 
 
-def turn(start_mm: float, length_mm: float, wire: str = "wire-01", inside: str = "left") -> Turn:
-    return Turn(wire, start_mm, start_mm + length_mm, inside, 0.2)  # type: ignore[arg-type]
+def turn(
+    start_mm: float, length_mm: float, wire: str = "wire-01", inside: Side = "left", *, stretch: bool = False
+) -> Turn:
+    return Turn(wire, start_mm, start_mm + length_mm, inside, 0.2, stretch=stretch)
 
 
 SUPPORT = st.lists(
     st.builds(
-        lambda start, length, wire, inside, share: TurnSupport(turn(start, length, wire, inside), share),
+        lambda start, length, wire, inside, stretch, share: TurnSupport(
+            turn(start, length, wire, inside, stretch=stretch), share
+        ),
         st.floats(0, 100),
         st.floats(0.5, 50),
         st.sampled_from(["wire-01", "wire-02"]),
-        st.sampled_from(["left", "right", "both"]),
+        st.sampled_from(["left", "right"]),
+        st.booleans(),
         st.floats(0, 1),
     ),
     max_size=6,
@@ -154,7 +159,7 @@ def test_what_holds_less_than_asked_is_refused(support: list[TurnSupport], least
 
 
 def test_the_refusal_says_how_much_is_held_and_how_much_is_asked() -> None:
-    support = (TurnSupport(turn(0, 10), 0.5), TurnSupport(turn(20, 30, inside="both"), 0.1))
+    support = (TurnSupport(turn(0, 10), 0.5), TurnSupport(turn(20, 30, stretch=True), 0.1))
     with pytest.raises(UnheldError) as refusal:
         refuse_unheld(support, JigConfig())
     assert refusal.value.problem == (
@@ -166,9 +171,9 @@ def test_a_wire_whose_turns_nothing_holds_is_an_error_that_names_it() -> None:
     """A well held long stretch doesn't hide its bad turns, and a wire of stretches alone has none."""
     held = (
         TurnSupport(turn(0, 10, "wire-01"), 0.2),
-        TurnSupport(turn(20, 90, "wire-01", "both"), 1.0),
+        TurnSupport(turn(20, 90, "wire-01", stretch=True), 1.0),
         TurnSupport(turn(0, 10, "wire-02"), 0.9),
-        TurnSupport(turn(0, 90, "wire-03", "both"), 0.0),
+        TurnSupport(turn(0, 90, "wire-03", stretch=True), 0.0),
     )
     (found,) = unheld_findings(held, JigConfig())
     assert (found.level, found.code, found.where) == ("error", "unheld-wire", "wire-01")

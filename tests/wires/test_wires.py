@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.jig.metal import arcs
 from tests.wires.pieces import circle, drawing_of, solution_of
 from wrapit.config import Config, JigConfig
 from wrapit.decomposition.model import Solution
@@ -21,6 +22,7 @@ from wrapit.wires.stage import draw_wires
 from wrapit.wires.turns import find_turns
 
 CONFIG = Config(drawing="none.png")
+PAPERS_RULE = Config(drawing="none.png", jig=JigConfig(support="turns"))
 coordinates = st.floats(-20, 20, allow_nan=False).map(lambda v: round(v, 3))
 
 
@@ -147,13 +149,24 @@ def test_s_curve_turns_left_then_right() -> None:
     assert [turn.inside for turn in turns] == ["left", "right"]
 
 
-def test_long_straight_stretch_is_held_on_both_sides() -> None:
-    (wire,), _ = draw_wires(trail_of((0, 0), (30, 0)), CONFIG)
-    assert [(turn.inside, turn.start_mm, turn.end_mm) for turn in wire.turns] == [
-        ("both", 3.0, pytest.approx(27))
+def test_the_papers_rule_holds_a_long_straight_stretch_on_one_side() -> None:
+    (wire,), _ = draw_wires(trail_of((0, 0), (30, 0)), PAPERS_RULE)
+    assert [(turn.inside, turn.stretch, turn.start_mm, turn.end_mm) for turn in wire.turns] == [
+        ("left", True, 3.0, pytest.approx(27))
     ]
-    (short,), _ = draw_wires(trail_of((0, 0), (19, 0)), CONFIG)
+    (short,), _ = draw_wires(trail_of((0, 0), (19, 0)), PAPERS_RULE)
     assert short.turns == ()
+    (taut,), _ = draw_wires(trail_of((0, 0), (30, 0)), CONFIG)
+    assert taut.turns == (), "a wire under tension is straight by itself"
+
+
+@given(st.floats(20, 200), st.sampled_from([1, -1]))
+def test_a_long_stretch_is_held_on_its_concave_side(radius_mm: float, side: int) -> None:
+    bent = from_chain(arcs((0, 0), 0, (radius_mm, side * math.degrees(30 / radius_mm))))
+    (stretch,), _ = find_turns("wire-01", bent, PAPERS_RULE.jig)
+    assert stretch.stretch
+    assert stretch.inside == ("left" if side > 0 else "right")
+    assert find_turns("wire-01", bent, CONFIG.jig)[0] == ()
 
 
 def test_crossing_wires_are_tied_and_the_later_lies_on_top() -> None:

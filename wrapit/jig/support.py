@@ -69,7 +69,7 @@ def stretch_support(support: Iterable[TurnSupport]) -> float:
 def really_held(
     support: Iterable[TurnSupport], pins: Iterable[Pin], laid: Iterable[Course]
 ) -> tuple[TurnSupport, ...]:
-    """The support of each turn, where what a pin holds is held, and where a taut wire keeps to the drawing."""
+    """The support of each turn; what a pin holds is held, and where a taut wire keeps to the drawing."""
     pinned = {pin.turn for pin in pins}
     course_of = {course.wire: course for course in laid}
     return tuple(

@@ -76,7 +76,6 @@ def blob(seed: int) -> Region:
     return Outliner.of(circles, (1.0,), 2e-3).region(largest)
 
 
-
 @settings(max_examples=15)
 @given(st.integers(0, 10_000), st.sampled_from([-0.6, -0.2, 0.15, 0.8]))
 def test_offsets_are_shapelys_but_exact(seed: int, by: float) -> None:

@@ -137,8 +137,8 @@ def test_any_course_is_under_its_wires_and_clear_of_all_else(seed: int, closed: 
     rng = np.random.default_rng(seed)
     wires = wires_of([scribble(rng, 45, 9, closed=closed), scribble(rng, 45, 6)])
     plan, _, plate = planned(wires, JigConfig())
-    assert plan.course is not None
-    strokes = [polygon_of(stroke, 1e-3) for stroke in plan.course.strokes]
+    assert plan.groove is not None
+    strokes = [polygon_of(stroke, 1e-3) for stroke in plan.groove.strokes]
     grooves = shapely.union_all(strokes)
     assert sum(stroke.area for stroke in strokes) == pytest.approx(grooves.area)
     lines = shapely.union_all(Channels.of(wires, JigConfig()).lines)
@@ -165,17 +165,17 @@ def test_any_jig_with_its_course_is_sound(seed: int, kind: str) -> None:
 
 def test_the_course_is_engraved_as_deep_as_it_says() -> None:
     marked, bare = only(CORNER), only(CORNER, course=False)
-    assert bare.plan.course is None
-    assert marked.plan.course is not None
-    engraved = sum(map(region_area_mm2, marked.plan.course.strokes)) * marked.plan.course.depth_mm
+    assert bare.plan.groove is None
+    assert marked.plan.groove is not None
+    engraved = sum(map(region_area_mm2, marked.plan.groove.strokes)) * marked.plan.groove.depth_mm
     assert engraved > 0.9 * 0.6 * 95 * 0.4
     assert bare.volume_mm3 - marked.volume_mm3 == pytest.approx(engraved, rel=0.02)
 
 
 def test_an_arrow_head_shows_where_a_wire_starts() -> None:
     plan, _, _ = planned(wires_of([line((0, 0), (60, 0))]), JigConfig())
-    assert plan.course is not None
-    (groove,) = (polygon_of(stroke, 1e-3) for stroke in plan.course.strokes)
+    assert plan.groove is not None
+    (groove,) = (polygon_of(stroke, 1e-3) for stroke in plan.groove.strokes)
     _, low, _, high = groove.bounds
     wide = [
         groove.intersection(shapely.LineString([(x, low), (x, high)])).length
@@ -192,4 +192,4 @@ def test_thin_wire_has_no_groove_to_sink_into() -> None:
     for diameter, has in ((0.6, False), (0.7, True)):
         wires = wires_of(CORNER, diameter_mm=diameter)
         plan, _, _ = planned(wires, JigConfig())
-        assert (plan.course is not None) == has
+        assert (plan.groove is not None) == has

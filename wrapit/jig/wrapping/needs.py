@@ -23,7 +23,7 @@ from wrapit.jig.wrapping.free_sides import free_sides
 from wrapit.wires.model import Side, Turn
 
 # How long a piece of wall is added at a time: the next longer one where a wall of that length is planned
-# already, but doesn't stand, or doesn't help. Of SAME_MM of it it doesn't matter whether it is planned.
+# already, but doesn't stand, or doesn't help. Planned is what is planned but for SAME_MM at its ends.
 PIECES_MM = (4.0, 8.0, 12.0)
 SAME_MM = 0.5
 # A wire that strays further than FAR has lost its way round what should hold it: it gets pieces all along, each
