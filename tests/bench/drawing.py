@@ -135,7 +135,7 @@ def own_pictures() -> list[tuple[str, Path, dict[str, Any], dict[str, Any]]]:
             continue
         strokes = read_strokes(source, TracingConfig())
         width = strokes.width_px or 1.0
-        drawn = planar(strokes.curves, 0.95 * width, TracingConfig().corner_angle)
+        drawn = planar(strokes.curves, width, TracingConfig().corner_angle)
         factor = Image.open(picture).width / _width_px(source)
         number = {node: index for index, node in enumerate(drawn.places)}
         truth = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from collections.abc import Iterator
 from fractions import Fraction
 
@@ -189,3 +190,28 @@ def test_lines_that_run_close_beside_each_other_too_often_are_refused(monkeypatc
         DrawingError, match=r"^hatching\.svg: the lines cross, or run close beside each other"
     ):
         planar(hatching, 0.1, CORNER_RAD, "hatching.svg")
+
+
+@given(
+    beyond=st.floats(-0.25, 0.25),
+    ways=st.tuples(st.floats(60, 120), st.floats(60, 120)),
+    tilt=st.floats(0, 360),
+    parts=st.booleans(),
+)
+def test_two_strokes_that_begin_in_one_point_beside_a_third_begin_on_it(beyond, ways, tilt, parts):
+    # A line, and on either side of it a stroke; both begin in one point, `beyond` widths beside the line.
+    def at(x, y):
+        turned = np.exp(1j * math.radians(tilt)) * complex(x, y)
+        return np.array([turned.real, turned.imag])
+
+    def leg(angle_deg):
+        angle = math.radians(angle_deg)
+        return at(0, beyond), at(20 * math.cos(angle), beyond + 20 * math.sin(angle))
+
+    left, right = leg(ways[0]), leg(-ways[1])
+    strokes = [through([at(-20, 0), at(20, 0)])]
+    strokes += [through(left), through(right)] if parts else [through([left[1], left[0], right[1]])]
+    graph = planar(strokes, 1.0, CORNER_RAD)
+    degree = sorted(Counter(node for p in graph.pieces for node in (p.start, p.end)).values())
+    assert degree == [1, 1, 1, 1, 4]
+    assert all(piece.curve.length > 10 for piece in graph.pieces)

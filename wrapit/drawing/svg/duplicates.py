@@ -27,6 +27,8 @@ _PARALLEL = math.sin(math.radians(15))
 # Circles of 20 widths that only touch do so over less than 0.5.
 _TOUCHING = 0.003
 _TOUCH = 0.5
+# Strokes that take longer to part are one to the eye for most of that; 10 widths' radius takes 2.4.
+_PARTING = 2.5
 # What is left beside them and too short to be a stroke?
 _REST = 0.6
 # How finely is that looked at? In steps of a quarter of a width; where a stretch ends is then halved twelve
@@ -166,7 +168,10 @@ def _span(
     touching = touching[apart[touching % len(apart)] < _TOUCHING * width]
     ends = [(run[0], _NEAR), (run[1], _NEAR)]
     if len(touching) and polyline.covered(touching[0], touching[-1]) >= _TOUCH * width:
-        ends = [(int(touching[0]), _TOUCHING), (int(touching[-1]), _TOUCHING)]
+        if polyline.covered(run[0], int(touching[0])) < _PARTING * width:
+            ends[0] = (int(touching[0]), _TOUCHING)
+        if polyline.covered(touching[-1], run[1]) < _PARTING * width:
+            ends[1] = (int(touching[-1]), _TOUCHING)
     start, end = (
         _edge(curve, polyline, other, index, step, near * width)
         for (index, near), step in zip(ends, (-1, 1), strict=True)

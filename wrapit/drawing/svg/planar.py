@@ -12,12 +12,14 @@ from wrapit.drawing.svg.intersections import Contact, crossings, touches
 from wrapit.drawing.svg.newton import points_at
 from wrapit.drawing.svg.shared_places import Places
 from wrapit.drawing.svg.steps import Steps, steps_of
-from wrapit.drawing.svg.tidying import rejoined, without_doubles, without_stubs
+from wrapit.drawing.svg.tidying import rejoined, without_doubles, without_nubs, without_stubs
 from wrapit.geometry import BezierChain, FloatArray
 
-# What is a stub behind a joint? In reaches, which are 0.95 stroke widths: a stroke that ends in another's ink
+# What is a stub behind a joint? In reaches, which are stroke widths: a stroke that ends in another's ink
 # runs on for up to half a width, and a little more in a corner.
 _STUB = 0.63
+# How far behind a joint is a corner no corner? What lies so much off a centre line is still under its ink.
+_NUB = 0.3
 # Which places are one, and which pieces? In reaches as well: far less than ink is wide, far more than
 # rounding.
 _ONE_PLACE = 0.08
@@ -61,7 +63,8 @@ def planar(curves: list[Curve], reach: float, corner_rad: float, where: str = "d
         pieces += _pieces(each, own, places, reach)
     pieces = without_doubles(pieces, _ONE_PIECE * reach)
     pieces, stubs = without_stubs(pieces, _STUB * reach)
-    return Planar(places.all(), rejoined(pieces, corner_rad), stubs)
+    pieces, nubs = without_nubs(pieces, places.all(), _NUB * reach)
+    return Planar(places.all(), rejoined(pieces, corner_rad), stubs + nubs)
 
 
 def _places(contacts: list[Contact], steps: Steps, tolerance: float) -> Places:

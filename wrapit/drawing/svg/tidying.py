@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from wrapit.drawing.assembly import Piece
+from wrapit.drawing.svg.cutting import moved
 from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.disjoint_sets import Sets
 from wrapit.geometry.polyline import evenly
@@ -77,12 +80,49 @@ def without_stubs(pieces: list[Piece], reach: float) -> tuple[list[Piece], list[
         pieces = rest
 
 
-def rejoined(pieces: list[Piece], corner_rad: float) -> list[Piece]:
-    """One piece in place of those that meet smoothly where nothing else does: one stroke drawn in parts."""
+def without_nubs(
+    pieces: list[Piece], places: dict[int, FloatArray], reach: float
+) -> tuple[list[Piece], list[tuple[FloatArray, float]]]:
+    """Moves corners less than `reach` behind a joint into it; returns start and length of what went.
+
+    Two strokes that begin in one point just beside a third make such a corner: one of them crosses it.
+    """
+    at = _pieces_at(pieces)
+    joint_of: dict[int, int] = {}
+    gone: set[int] = set()
+    for node, ends in at.items():
+        for short, long in (ends, ends[::-1]) if len(ends) == 2 else ():
+            nub = pieces[short]
+            joint = nub.end if nub.start == node else nub.start
+            if nub.curve.length < reach < pieces[long].curve.length / 2 and len(at[joint]) > 2:
+                joint_of[node] = joint
+                gone.add(short)
+    rest = [
+        _led(piece, joint_of, places) if {piece.start, piece.end} & joint_of.keys() else piece
+        for index, piece in enumerate(pieces)
+        if index not in gone
+    ]
+    return rest, [(pieces[index].curve.start, pieces[index].curve.length) for index in sorted(gone)]
+
+
+def _led(piece: Piece, joint_of: dict[int, int], places: dict[int, FloatArray]) -> Piece:
+    """The piece with its ends moved from corners to their joints."""
+    start, end = (joint_of.get(node, node) for node in (piece.start, piece.end))
+    return replace(piece, start=start, end=end, curve=moved(piece.curve.points, places[start], places[end]))
+
+
+def _pieces_at(pieces: list[Piece]) -> dict[int, list[int]]:
+    """The pieces at each node; twice where one begins and ends there."""
     at: dict[int, list[int]] = {}
     for index, piece in enumerate(pieces):
         for node in (piece.start, piece.end):
             at.setdefault(node, []).append(index)
+    return at
+
+
+def rejoined(pieces: list[Piece], corner_rad: float) -> list[Piece]:
+    """One piece in place of those that meet smoothly where nothing else does: one stroke drawn in parts."""
+    at = _pieces_at(pieces)
     together = Sets()
     joints: dict[int, tuple[int, int]] = {}
     latest: dict[int, int] = {}
