@@ -33,9 +33,11 @@ from wrapit.wires.model import Side, Turn
 REACH_MM = AWG18_MM / 2 + 0.2
 
 
+PAPERS_RULE = JigConfig(support="turns")
+
+
 def test_crossing_wire_opens_a_wall() -> None:
-    crossed = only([line((0, 0), (60, 0)), line((30, -25), (30, 25))])
-    assert len(crossed.walls) == 4
+    crossed = only([line((0, 0), (60, 0)), line((30, -25), (30, 25))], support="turns")
     (long,) = [one.share for one in crossed.support if one.turn.wire == "wire-01"]
     assert long == pytest.approx((54 - 2 * REACH_MM) / 54, abs=0.01)
     assert 0.8 < stretch_support(crossed.support) < 1.0
@@ -45,20 +47,24 @@ def test_crossing_wire_opens_a_wall() -> None:
     )
 
 
-def test_a_stretch_needs_one_wall_and_is_no_turn() -> None:
-    chains = [arcs((0, 0), 0, (9, 180), (60, 0))]
-    wires, jig = wires_of(chains), only(chains)
-    channels = Channels.of(wires, JigConfig())
-    stretch = next(turn for turn in wires[0].turns if turn.stretch)
-    below = [wall for wall in jig.walls if polygon_of(wall, 0.01).bounds[1] < 18]
-    assert len(below) < len(jig.walls)  # one wall stands above the stretch, outside the bend
-    one_sided, bare = turn_support(channels, below), turn_support(channels, ())
-    assert stretch_support(one_sided) == pytest.approx(1.0)
-    assert total_support(one_sided) == total_support(jig.support) > 0.95
+def test_a_stretch_is_held_on_its_inside_and_is_no_turn() -> None:
+    # The stretch bends the other way than the turn: its wall stands above it, outside the bend.
+    chains = [arcs((0, 0), 0, (9, 180), (100, -35))]
+    wires, jig = wires_of(chains, PAPERS_RULE), only(chains, support="turns")
+    channels = Channels.of(wires, PAPERS_RULE)
+    (stretch,) = (turn for turn in wires[0].turns if turn.stretch)
+    its = [wall for wall in jig.walls if polygon_of(wall, 0.01).bounds[3] > 20]
+    others = [wall for wall in jig.walls if wall not in its]
+    assert its
+    assert others
+    alone, without, bare = (turn_support(channels, walls) for walls in (its, others, ()))
+    assert stretch_support(alone) > 0.95
+    assert stretch_support(without) == 0.0
+    assert total_support(without) == total_support(jig.support) > 0.95
     assert stretch_support(bare) == total_support(bare) == 0.0
-    plan, _ = plan_jig(wires, JigConfig())
+    plan, _ = plan_jig(wires, PAPERS_RULE)
     weak = {
-        finding.code: finding.where for finding in support_findings(channels, plan.pins, bare, JigConfig())
+        finding.code: finding.where for finding in support_findings(channels, plan.pins, bare, PAPERS_RULE)
     }
     assert set(weak) == {"weak-turn", "weak-stretch"}
     assert weak["weak-stretch"] == channels.place(stretch)
