@@ -42,7 +42,7 @@ def laser_of(
         mine = tuple(wire for wire in wires if wire.name in names)
         plans[f"jig-{names[0]}"], more = plan_stack(mine, JIG, config)
         findings += more
-    laser, more = laser_jig(plans, JIG, config)
+    laser, more = laser_jig(plans, (), JIG, config)
     return laser, (*findings, *more)
 
 
