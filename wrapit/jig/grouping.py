@@ -65,7 +65,8 @@ def parted(
         return Parting((plan(wires, ONE_JIG, ()),))
     # A wire without turns and long stretches needs no jig of its own, and its holes take room from others.
     bent = tuple(wire for wire in wires if wire.turns) or wires
-    forms = same_shapes(bent)
+    # A seat is beside one wire, not beside all of its shape.
+    forms = () if config.seats else same_shapes(bent)
     copies = {form.wire for form in forms}
     held = tuple(wire for wire in bent if wire.name not in copies)
     handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in bent)))
