@@ -61,7 +61,7 @@ CASES = [
     ("hairpin", {"kerf": 0.1, "sheet": 2.0, "fit": 0.0}, JIG),
     ("spiral", {}, JIG),
     ("woven", {"sheet_width": 600.0, "sheet_height": 300.0}, JIG),
-    ("woven", {"sheet_width": 600.0, "sheet_height": 300.0, "kerf": 0.1}, PAPERS_RULE),
+    ("spiral", {"kerf": 0.1}, PAPERS_RULE),
 ]
 
 
