@@ -20,8 +20,8 @@ STEP_MM = 0.1
 # sides are nowhere the same: polygons err by 1e-3.
 OVER_MM = 0.01
 BEYOND_MM = 0.3
-# What of a channel is narrower than this beside a held side is no ground for a wire: strips leave slits (of
-# 3e-18 mm²) and crumbs (0.1 by 3e-3 mm) between them round tight turns, which would be holes in the wall.
+# What of a channel is narrower than this beside a held side is no ground for a wire: strips leave slits
+# (3e-18 mm²) and crumbs (0.1 by 3e-3 mm) between them round tight turns, which would be holes in a wall.
 CRUMB_MM = OVER_MM
 # How many spans are remembered from one round of planning to the next: those of the largest piece.
 _REMEMBERED = 1000
