@@ -33,7 +33,9 @@ def read(path: Path) -> dict[str, list[LinearRing]]:
         if entity.dxf.layer in rings:
             outline = ezdxf.path.make_path(entity)
             assert outline.start.isclose(outline.end, abs_tol=1e-12)
-            rings[entity.dxf.layer].append(LinearRing([(p.x, p.y) for p in outline.flattening(2e-4)]))
+            # The end is the start but for rounding; both together would be a crossing.
+            points = [(p.x, p.y) for p in outline.flattening(2e-4)][:-1]
+            rings[entity.dxf.layer].append(LinearRing(points))
     return rings
 
 
