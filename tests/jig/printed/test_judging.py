@@ -47,7 +47,7 @@ def test_a_wire_laid_beside_its_channel_is_noticed(jig: tuple[Made, Wires], by_m
 
 def test_a_wire_in_the_plate_is_noticed(jig: tuple[Made, Wires]) -> None:
     made, wires = jig
-    thicker = Config(drawing="drawing.svg", jigs=("printed",), jig={"base_thickness": "2.5 mm"})
+    thicker = Config(drawing="drawing.svg", jigs=("printed",), jig={"base_thickness": "1.8 mm"})
     with pytest.raises(KernelError, match="in common"):
         judged(made, wires, thicker)
 
