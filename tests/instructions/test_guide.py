@@ -253,7 +253,7 @@ def test_the_laser_cut_jig_has_its_page() -> None:
 
     solution, wires = eye()
     plan, _ = plan_stack(wires, JigConfig(), PlateConfig())
-    laser, _ = laser_jig({"jig": plan}, JigConfig(), PlateConfig())
+    laser, _ = laser_jig({"jig": plan}, (), JigConfig(), PlateConfig())
     shown = GuidePage("laser", "Glue it", "sheet/page.html.jinja", plan_laser_page(laser))
     html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", pages=[shown])
     page = Page(html)
@@ -284,6 +284,6 @@ def test_the_map_of_each_stack_shows_its_own_wires() -> None:
 
     _, wires = eye()
     apart = {f"jig-{wire.name}": plan_stack((wire,), JigConfig(), PlateConfig())[0] for wire in wires}
-    laser, _ = laser_jig(apart, JigConfig(), PlateConfig())
+    laser, _ = laser_jig(apart, (), JigConfig(), PlateConfig())
     shown = {stack.jig: [colour for _, colour in stack.wires] for stack in plan_laser_page(laser).stacks}
     assert shown == {f"jig-{wire.name}": [wire.colour] for wire in wires}
