@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.jig.metal import arcs, circle, line, wires_of
-from wrapit.config import Config, PegsConfig
+from wrapit.config import Config, JigConfig, PegsConfig
 from wrapit.errors import UnheldError
 from wrapit.jig.channel import Channels
 from wrapit.jig.kinds import JIGS
@@ -32,7 +32,7 @@ CURLS = st.lists(
 
 
 def planned(chains: list, config: PegsConfig | None = None) -> tuple[PegPlan, Channels]:  # type: ignore[type-arg]
-    channels = Channels(wires_of(chains), 0.2)
+    channels = Channels.of(wires_of(chains), JigConfig())
     return place_pegs(channels, config or PegsConfig()), channels
 
 

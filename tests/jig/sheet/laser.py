@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from shapely import Polygon
 
-from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
+from tests.exports.pieces_for_tests import eye, spiral, woven
+from tests.jig.metal import arcs, wires_of
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.errors import Finding
 from wrapit.exports.flat_files import write_flat_files
@@ -16,8 +18,14 @@ from wrapit.jig.sheet.drawings import sheet_drawings
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.stage import laser_jig, plan_stack
 from wrapit.wires.model import Wire
+from wrapit.wires.turns import find_turns
 
 JIG = JigConfig()
+
+
+def hairpin() -> tuple[Wire, ...]:
+    """A wire that turns back on a radius of 4 mm, wide enough for a wall of sheet, between legs of 25 mm."""
+    return wires_of([arcs((0, 0), 0, (25, 0), (4, 180), (25, 0))])
 
 
 PIECES: dict[str, Callable[[], tuple[Wire, ...]]] = {
@@ -34,15 +42,17 @@ def write_plate(folder: Path, laser: LaserJig, config: PlateConfig) -> None:
 
 
 def laser_of(
-    wires: tuple[Wire, ...], config: PlateConfig, *, split: bool = False
+    wires: tuple[Wire, ...], config: PlateConfig, jig: JigConfig = JIG, *, split: bool = False
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
+    """The jig of these wires, with the turns and stretches that its rule finds; a stack each if `split`."""
+    wires = tuple(replace(wire, turns=find_turns(wire.name, wire.centreline, jig)[0]) for wire in wires)
     groups = [(wire.name,) for wire in wires] if split else [tuple(wire.name for wire in wires)]
     plans, findings = {}, []
     for names in groups:
         mine = tuple(wire for wire in wires if wire.name in names)
-        plans[f"jig-{names[0]}"], more = plan_stack(mine, JIG, config)
+        plans[f"jig-{names[0]}"], more = plan_stack(mine, jig, config)
         findings += more
-    laser, more = laser_jig(plans, JIG, config)
+    laser, more = laser_jig(plans, (), jig, config)
     return laser, (*findings, *more)
 
 

@@ -9,9 +9,9 @@ import pytest
 import shapely
 from shapely import Polygon
 
-from tests.exports.pieces_for_tests import eye, hairpin, spiral, woven
+from tests.exports.pieces_for_tests import eye, spiral, woven
 from tests.jig.metal import line, wires_of
-from tests.jig.sheet.laser import JIG, laser_of, write_plate
+from tests.jig.sheet.laser import JIG, hairpin, laser_of, write_plate
 from wrapit.config import PlateConfig
 from wrapit.errors import JigError
 from wrapit.geometry import Loop, Region
@@ -90,6 +90,7 @@ def test_thin_wall_sheet_is_stacked_and_said_so() -> None:
     assert copies_needed(4, 1.0, PlateConfig()) == 2
     laser, findings = laser_of(hairpin(), PlateConfig(wall_sheet="3 mm"))
     walls = [part for part in laser.parts if part.role == "wall"]
+    assert walls
     assert all(part.copies == 2 for part in walls)
     assert sum(p.part.role == "wall" for s in laser.sheets for p in s.placed) == 2 * len(walls)
     assert "stacked-walls" in {finding.code for finding in findings}

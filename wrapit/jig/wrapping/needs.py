@@ -26,8 +26,8 @@ from wrapit.wires.model import Side, Turn
 # already, but doesn't stand, or doesn't help. Planned is what is planned but for SAME_MM at its ends.
 PIECES_MM = (4.0, 8.0, 12.0)
 SAME_MM = 0.5
-# A wire that strays further than FAR has lost its way round what should hold it: it gets pieces all along, each
-# APART from the next, as what is between may do without. What bends by less than STRAIGHT is straight.
+# A wire that strays further than FAR has lost its way round what should hold it: it gets pieces all along,
+# each APART from the next, as what is between may do without. What bends by less than STRAIGHT is straight.
 FAR_MM = 2.0
 APART_MM = 12.0
 STRAIGHT_RAD = 0.03

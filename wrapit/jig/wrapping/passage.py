@@ -20,6 +20,9 @@ STEP_MM = 0.1
 # sides are nowhere the same: polygons err by 1e-3.
 OVER_MM = 0.01
 BEYOND_MM = 0.3
+# What of a channel is narrower than this beside a held side is no ground for a wire: strips leave slits
+# (3e-18 mm²) and crumbs (0.1 by 3e-3 mm) between them round tight turns, which would be holes in a wall.
+CRUMB_MM = OVER_MM
 # How many spans are remembered from one round of planning to the next: those of the largest piece.
 _REMEMBERED = 1000
 
@@ -41,12 +44,18 @@ def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: Jig
 
     sides = {span: _held_side(channels, span, prolonged_mm(span, config)) for span in held}
     whole = channels.around(index, channels.reach_mm).difference(shapely.union_all(list(sides.values())))
-    parts = [whole, channels.around(index, channels.face_mm)]
+    parts = [_without_crumbs(whole) if sides else whole, channels.around(index, channels.face_mm)]
     for span, side in sides.items():
         rest = _rest(channels, index, span, prolonged_mm(span, config))
         if rest is not None and rest.dwithin(side, channels.reach_mm):
             parts.append(rest.buffer(channels.reach_mm, quad_segs=32).intersection(side))
     return shapely.union_all(parts)
+
+
+def _without_crumbs(ground: Any) -> Any:
+    """The ground (shapely) where it is wider than CRUMB_MM; corners stay sharp."""
+    narrower = ground.buffer(-CRUMB_MM / 2, join_style="mitre")
+    return narrower.buffer(CRUMB_MM / 2, join_style="mitre")
 
 
 def prolonged_mm(span: Turn, config: JigConfig) -> float:
