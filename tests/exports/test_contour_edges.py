@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from svgelements import Path as SvgPath
 
-from tests.exports.pieces_for_tests import arc_chain, hairpin
+from tests.exports.pieces_for_tests import arc_chain
 from tests.jig.sheet.laser import laser_of
-from wrapit.config import PlateConfig
+from wrapit.config import JigConfig, PlateConfig
 from wrapit.exports.contour_edges import as_bulges, as_chain
 from wrapit.exports.plate_svg import plate_svg
 from wrapit.geometry import Arc, Line
@@ -42,8 +42,9 @@ def test_bulges_are_the_arcs() -> None:
 
 
 def test_svg_is_at_true_size_with_the_lengths_of_the_contours() -> None:
-    laser, _ = laser_of(hairpin(), PlateConfig())
-    sheet = laser.sheets[0]
+    # All turns held on their inside: one wall goes round another part, so that there are inner cuts too.
+    laser, _ = laser_of(eye()[1], PlateConfig(), JigConfig(support="turns"))
+    sheet = laser.sheets[-1]
     root = ET.fromstring(
         plate_svg(FlatDrawing("plate", "a & b", sheet.contours, sheet.width_mm, sheet.height_mm))
     )

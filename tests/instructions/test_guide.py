@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.exports.pieces_for_tests import arc_chain, drawing_of, eye, solution_of
+from tests.jig.sheet.laser import laser_of
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.geometry import BezierChain, straight
 from wrapit.instructions.binding_order import assembly_order, binding_length_mm, find_ties
@@ -249,11 +250,10 @@ def test_springback_is_told() -> None:
 
 def test_the_laser_cut_jig_has_its_page() -> None:
     from wrapit.config import JigConfig, PlateConfig
-    from wrapit.jig.sheet.stage import laser_jig, plan_stack
 
+    # With all turns held on their inside a wall goes round another: something lies inside a part.
     solution, wires = eye()
-    plan, _ = plan_stack(wires, JigConfig(), PlateConfig())
-    laser, _ = laser_jig({"jig": plan}, JigConfig(), PlateConfig())
+    laser, _ = laser_of(wires, PlateConfig(), JigConfig(support="turns"))
     shown = GuidePage("laser", "Glue it", "sheet/page.html.jinja", plan_laser_page(laser))
     html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", pages=[shown])
     page = Page(html)
@@ -284,6 +284,6 @@ def test_the_map_of_each_stack_shows_its_own_wires() -> None:
 
     _, wires = eye()
     apart = {f"jig-{wire.name}": plan_stack((wire,), JigConfig(), PlateConfig())[0] for wire in wires}
-    laser, _ = laser_jig(apart, JigConfig(), PlateConfig())
+    laser, _ = laser_jig(apart, (), JigConfig(), PlateConfig())
     shown = {stack.jig: [colour for _, colour in stack.wires] for stack in plan_laser_page(laser).stacks}
     assert shown == {f"jig-{wire.name}": [wire.colour] for wire in wires}
