@@ -30,8 +30,22 @@ def test_split_frees_a_packed_piece() -> None:
 
 
 def test_every_wire_alone_on_request() -> None:
-    jigs, _ = build_jig(wires_of([circle(9), circle(9, (30, 0))]), config(split="per-wire"))
+    jigs, _ = build_jig(wires_of([circle(9), circle(8, (30, 0))]), config(split="per-wire"))
     assert [jig.name for jig in jigs.jigs] == ["jig-wire-01", "jig-wire-02"]
+
+
+def test_wires_of_one_shape_share_a_form() -> None:
+    hook = arcs((0, 0), 0.3, (12, 0), (5, 120), (8, 0))
+    turned = hook.mapped([[0, -1], [1, 0]], (60, 0))
+    flipped = hook.mapped([[-1, 0], [0, 1]], (-20, 0)).reversed()
+    other = arcs((0, 40), 0.3, (12, 0), (5, 100), (8, 0))
+    jigs, findings = build_jig(wires_of([hook, turned, flipped, other]), config(split="per-wire"))
+    assert [jig.wires for jig in jigs.jigs] == [("wire-01",), ("wire-04",)]
+    assert [(form.wire, form.like, form.mirrored) for form in jigs.forms] == [
+        ("wire-02", "wire-01", False),
+        ("wire-03", "wire-01", True),
+    ]
+    assert "make 3 on this form" in next(f.message for f in findings if f.code == "form")
 
 
 def test_split_where_only_the_tail_of_another_wire_is_in_the_way() -> None:

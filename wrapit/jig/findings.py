@@ -156,6 +156,6 @@ def free_finding(wire: str) -> Finding:
 
 def _remedy(channels: Channels, one: TurnSupport, config: JigConfig) -> str:
     bend = one.turn.max_curvature_per_mm
-    if bend > 0 and 2 * (1 / bend - channels.reach_mm) < config.min_wall_width:
+    if bend > 0 and 2 * (1 / bend - channels.face_mm) < config.min_wall_width:
         return "bend it with round-nose pliers, make the piece larger, or use thinner wire"
     return "hold it by hand there, make the piece larger, or set jig.split to per-wire"

@@ -65,13 +65,14 @@ def parted(
         return Parting((plan(wires, ONE_JIG, ()),))
     # A wire without turns and long stretches needs no jig of its own, and its holes take room from others.
     bent = tuple(wire for wire in wires if wire.turns) or wires
-    forms = same_shapes(bent)
+    # A seat is beside one wire, not beside all of its shape.
+    forms = () if config.seats else same_shapes(bent)
     copies = {form.wire for form in forms}
     held = tuple(wire for wire in bent if wire.name not in copies)
     handmade = tuple(map(free_finding, (wire.name for wire in wires if wire not in bent)))
 
     def planned(group: tuple[Wire, ...]) -> P:
-        return plan(group, ONE_JIG if group == wires else _name(group), held)
+        return plan(group, ONE_JIG if group == bent else _name(group), held)
 
     if config.split == "per-wire" or config.springback == "compensate":
         return Parting(tuple(planned((wire,)) for wire in held), forms, handmade)
@@ -108,8 +109,10 @@ def parted(
     if lost or not gained:
         return Parting((single,))
     worst = min(weak, key=lambda name: (shared[name], name))
-    said = split_finding(worst, single.how_well[worst], split[worst], len(parts), config)
-    return Parting(parts, forms, (said, *handmade))
+    said = []
+    if len(parts) > 1:
+        said.append(split_finding(worst, single.how_well[worst], split[worst], len(parts), config))
+    return Parting(parts, forms, (*said, *handmade))
 
 
 @dataclass(frozen=True)

@@ -70,12 +70,16 @@ def really_held(
     support: Iterable[TurnSupport], pins: Iterable[Pin], laid: Iterable[Course]
 ) -> tuple[TurnSupport, ...]:
     """The support of each turn; what a pin holds is held, and where a taut wire keeps to the drawing."""
-    pinned = {pin.turn for pin in pins}
     course_of = {course.wire: course for course in laid}
     return tuple(
-        replace(one, share=1.0 if one.turn in pinned else max(one.share, kept(one.turn, course_of)))
-        for one in support
+        replace(one, share=max(one.share, kept(one.turn, course_of))) for one in with_pins(support, pins)
     )
+
+
+def with_pins(support: Iterable[TurnSupport], pins: Iterable[Pin]) -> tuple[TurnSupport, ...]:
+    """The support of each turn, where a pin in it holds it whole."""
+    pinned = {pin.turn for pin in pins}
+    return tuple(replace(one, share=1.0) if one.turn in pinned else one for one in support)
 
 
 def kept(turn: Turn, course_of: Mapping[str, Course]) -> float:

@@ -35,10 +35,10 @@ def wall_face(channels: Channels, wall: Wall) -> Face:
     """The exact face; where it fails its check, the polygon, whose sides are within 1e-3 mm of it."""
     try:
         region = channels.outliner.region(wall.outline)
+        sampled = polygon_of(region, SAMPLE_MM)  # ValueError where a loop has shrunk to less than a triangle
     except (ValueError, IndexError, ArithmeticError):  # no outline could be put together
         return _plain(channels, wall)
     gap, _ = min_wall_to_wire_mm(channels, (region,))
-    sampled = polygon_of(region, SAMPLE_MM)
     true = (
         gap is not None
         and gap >= channels.inside_gap_mm - CLEARANCE_TOLERANCE_MM

@@ -17,7 +17,7 @@ from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.polyline import steps
 from wrapit.jig.channel import SIDES, Channels
-from wrapit.jig.passage import beside, passage, prolonged_mm
+from wrapit.jig.wrapping.passage import beside, passage, prolonged_mm
 from wrapit.wires.model import Turn
 
 # How finely ground is laid beside a turn: a station each STEP, or each FAN radians where the turn is tighter

@@ -43,8 +43,9 @@ def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> 
             if pin is None or _held(channels, turn, walls) >= HELD:
                 continue
             disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
-            in_the_way = channels.area.intersects(disc.buffer(-TOUCHING_MM))
-            if in_the_way or taken.intersects(disc.buffer(PLATE_WEB_MM)):
+            if _in_the_way(channels, turn, disc.buffer(-TOUCHING_MM)) or taken.intersects(
+                disc.buffer(PLATE_WEB_MM)
+            ):
                 continue
             pins.append(pin)
             taken = taken.union(disc)
@@ -67,6 +68,15 @@ def pin_obstacles(pins: tuple[Pin, ...]) -> Any:
     )
 
 
+def _in_the_way(channels: Channels, turn: Turn, disc: Any) -> bool:
+    """Whether a pin stands nearer to its wire than a wall would, or nearer to another than the clearance."""
+    mine = channels.index[turn.wire]
+    return any(
+        channels.around(index, channels.face_mm if index == mine else channels.reach_mm).intersects(disc)
+        for index in range(len(channels.wires))
+    )
+
+
 def _held(channels: Channels, turn: Turn, walls: Any) -> float:
     """The share of a turn's inside that has a wall."""
     import shapely
@@ -84,7 +94,7 @@ def _pin(channels: Channels, turn: Turn, config: JigConfig) -> Pin | None:
     bend = float(side * curvature[tightest])
     if bend <= 0:
         return None
-    room = 2 * (1 / bend - channels.reach_mm)
+    room = 2 * (1 / bend - channels.face_mm)
     diameter = math.floor(room / PIN_STEP_MM + 1e-6) * PIN_STEP_MM
     if room >= config.min_wall_width or diameter < SMALLEST_PIN_MM - 1e-9:
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from wrapit.config import JigConfig
@@ -21,22 +22,35 @@ from wrapit.wires.model import Wire
 
 # Plate between a number's frame (which has its own gap) and walls, holes and screws.
 LABEL_GAP_MM = 0.3
+# How many groups of wires are remembered with their walls: a jig asks twice for its own.
+_REMEMBERED = 4
+
+
+@lru_cache(_REMEMBERED)
+def walls_of(wires: tuple[Wire, ...], config: JigConfig) -> StandingWalls:
+    """The walls of these wires beside the seats.
+
+    Raises ValueError without wires or for wires of different diameters.
+    """
+    if not config.seats:
+        return standing_walls(wires, config)
+    return walls_beside(wires, config, seat_obstacles(seats_of(config, wires[0].diameter_mm)))
 
 
 def plan_jig(
     wires: tuple[Wire, ...], config: JigConfig, name: str = "jig"
-) -> tuple[JigPlan, StandingWalls, tuple[Finding, ...]]:
-    """The plan of one jig that holds all these wires, and its walls.
+) -> tuple[JigPlan, tuple[Finding, ...]]:
+    """The plan of one jig that holds all these wires.
 
     Raises JigError where the plate doesn't fit the bed or a seat is in a start hole's way, ValueError
     without wires or for wires of different diameters.
     """
     import shapely
 
-    seats = seats_of(config, wires[0].diameter_mm)
-    pockets = seat_obstacles(seats)
-    standing = standing_walls(wires, config) if not seats else walls_beside(wires, config, pockets)
+    standing = walls_of(wires, config)
     channels, planned = standing.channels, standing.plan
+    seats = seats_of(config, channels.diameter_mm)
+    pockets = seat_obstacles(seats)
     holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
     check_holes(seats, rims)
     heights = wall_heights(channels, [polygon for polygon, _ in planned.polygons], config)
@@ -58,7 +72,7 @@ def plan_jig(
     names = tuple(wire.name for wire in wires)
     groove = _groove(channels, planned, pockets, labels, config) if config.course else None
     plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, planned.laid, groove)
-    return plan, standing, (*planned.findings, *unlabelled)
+    return plan, (*planned.findings, *unlabelled)
 
 
 def _groove(

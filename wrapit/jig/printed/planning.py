@@ -11,7 +11,7 @@ from wrapit.jig.channel import Channels
 from wrapit.jig.findings import form_findings, stray_findings, support_findings, unheld_findings
 from wrapit.jig.grouping import parted
 from wrapit.jig.model import Hold, JigPlan, SameShape, TurnSupport
-from wrapit.jig.printed.plan import plan_jig
+from wrapit.jig.printed.plan import plan_jig, walls_of
 from wrapit.jig.printed.seats import check_seats, seats_near
 from wrapit.jig.support import really_held
 from wrapit.jig.wall_face import Face, plain_finding
@@ -114,5 +114,6 @@ def _check_wishes(wires: tuple[Wire, ...], config: JigConfig) -> None:
 
 
 def _planned(wires: tuple[Wire, ...], config: JigConfig, name: str) -> PlannedJig:
-    plan, standing, findings = plan_jig(wires, config, name)
+    plan, findings = plan_jig(wires, config, name)
+    standing = walls_of(wires, config)
     return PlannedJig(standing.channels, plan, standing, findings)

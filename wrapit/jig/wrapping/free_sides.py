@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from wrapit.jig.channel import SIDES, Channels
-from wrapit.jig.passage import beside
+from wrapit.jig.wrapping.passage import beside
 from wrapit.wires.model import Side, Turn, Wire
 
 # How finely free ground is laid: its edge is where fingers go, not where a wire lies.
