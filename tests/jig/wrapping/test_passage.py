@@ -5,11 +5,11 @@ from __future__ import annotations
 import shapely
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from wrapit.jig.passage import CRUMB_MM, passage
 
 from tests.jig.metal import arcs, wires_of
 from wrapit.config import JigConfig
 from wrapit.jig.channel import Channels
+from wrapit.jig.wrapping.passage import CRUMB_MM, passage
 from wrapit.wires.model import Side, Turn
 
 # Legs with bends between them, from a kink to a turn wide enough to have a wall inside.
