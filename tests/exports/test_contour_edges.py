@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from svgelements import Path as SvgPath
 
-from tests.exports.pieces_for_tests import arc_chain
+from tests.exports.pieces_for_tests import arc_chain, eye
 from tests.jig.sheet.laser import laser_of
 from wrapit.config import JigConfig, PlateConfig
 from wrapit.exports.contour_edges import as_bulges, as_chain
