@@ -48,7 +48,8 @@ def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: Jig
     for span, side in sides.items():
         rest = _rest(channels, index, span, prolonged_mm(span, config))
         if rest is not None and rest.dwithin(side, channels.reach_mm):
-            parts.append(rest.buffer(channels.reach_mm, quad_segs=32).intersection(side))
+            again = rest.buffer(channels.reach_mm, quad_segs=32).intersection(side)
+            parts.append(_without_crumbs(again))
     return shapely.union_all(parts)
 
 
