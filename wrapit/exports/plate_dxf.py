@@ -37,7 +37,8 @@ def write_dxf(
 
     Contours with curves become one SPLINE in Bézier form (each interior knot three times), or a polyline
     with arcs or short lines within the tolerance; contours of lines and arcs one polyline (with splines:
-    where none of them is too short to be cut smoothly), circles a CIRCLE. The profile `plain` has LINE, ARC and CIRCLE only. `$EXTMIN` and
+    where none of them is too short to be cut smoothly), circles a CIRCLE.
+    The profile `plain` has LINE, ARC and CIRCLE only. `$EXTMIN` and
     `$EXTMAX` are what is drawn. Colours stand on entities and on layers,
     because some programs ignore one of the two. The same contours give the same bytes.
     Raises ExportError when the file can't be written or an audit of it finds a fault.
