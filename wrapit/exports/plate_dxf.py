@@ -15,6 +15,7 @@ from wrapit.exports.laser_profiles import ORDER, PROFILES, Look
 from wrapit.exports.short_spans import without_short_lines, without_short_spans
 from wrapit.geometry import Arc, BezierChain, Edge, Line
 from wrapit.geometry.outlines.biarcs import as_arcs, as_lines
+from wrapit.geometry.outlines.closing import SHORT_MM
 from wrapit.geometry.outlines.loops import is_circle
 from wrapit.jig.contours import Contour
 
@@ -35,8 +36,9 @@ def write_dxf(
     """Write the contours as a laser cutter's DXF, in the order in which they are to be worked.
 
     Contours with curves become one SPLINE in Bézier form (each interior knot three times), or a polyline
-    with arcs or short lines within the tolerance; contours of lines and arcs one polyline, circles a
-    CIRCLE. The profile `plain` has LINE, ARC and CIRCLE only. `$EXTMIN` and
+    with arcs or short lines within the tolerance; contours of lines and arcs one polyline (with splines:
+    where none of them is too short to be cut smoothly), circles a CIRCLE.
+    The profile `plain` has LINE, ARC and CIRCLE only. `$EXTMIN` and
     `$EXTMAX` are what is drawn. Colours stand on entities and on layers,
     because some programs ignore one of the two. The same contours give the same bytes.
     Raises ExportError when the file can't be written or an audit of it finds a fault.
@@ -74,9 +76,21 @@ def write_dxf(
 
 def simplified(edges: tuple[Edge, ...], curves: CurveStyle, tolerance_mm: float) -> tuple[Edge, ...]:
     """The edges as the file spells curves."""
-    if curves == "spline" or is_circle(edges):
+    if is_circle(edges):
         return edges
+    if curves == "spline":
+        return _without_short_edges(edges)
     return as_arcs(edges, tolerance_mm) if curves == "arc" else as_lines(edges, tolerance_mm)
+
+
+def _without_short_edges(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
+    """The edges; lines and arcs of which some are too short to be cut smoothly become one curve."""
+    mixed = {type(edge) for edge in edges} == {Line, Arc}
+    ends = [math.dist(edge.start, edge.end) for edge in edges]
+    if not mixed or min(ends) >= SHORT_MM:
+        return edges
+    closed = Contour("NOTE", edges).closed
+    return (without_short_spans(as_chain(edges, closed=closed), closed=closed),)
 
 
 def in_order(contours: Iterable[Contour]) -> list[Contour]:
