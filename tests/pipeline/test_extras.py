@@ -57,7 +57,7 @@ def test_an_end_at_the_top_becomes_the_bail(tmp_path: Path) -> None:
 
 
 def test_overbent_wires_are_in_the_jig_and_drawn_ones_in_the_files(tmp_path: Path) -> None:
-    paths = (CIRCLE, "M 20 5 L 20 35", "M 5 20 L 35 20")
+    paths = (CIRCLE, "M 20 5 Q 40 20 20 35", "M 5 20 Q 20 40 35 20")
     wire = {"temper": "hard", "gauge": "1 mm"}
     report, out = built(tmp_path, *paths, wire=wire, jig={"springback": "compensate"})
     assert [each["name"] for each in report["springback"]] == [each["name"] for each in report["wires"]]

@@ -59,8 +59,8 @@ def test_each_remedy_is_tried_and_does(refused_piece: tuple[Path, str], tmp_path
     assert remedies
     for number, (key, value, held) in enumerate(remedies):
         report = build(config, tmp_path / str(number), (f"{key}={value}",), until="jig").report
-        assert report["jig"]["turn_support"] >= 0.3
-        assert report["jig"]["turn_support"] == pytest.approx(int(held) / 100, abs=0.02)
+        assert report["jig"]["held"] >= 0.3
+        assert report["jig"]["held"] == pytest.approx(int(held) / 100, abs=0.02)
 
 
 def test_check_says_the_same(refused_piece: tuple[Path, str]) -> None:

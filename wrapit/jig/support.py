@@ -24,6 +24,8 @@ PROBE_DEPTH_MM = 0.01
 # Between points of walls whose distance to the wires is measured: between two of them, a face of a turn of
 # 0.5 mm radius comes 0.03²/(8 · 0.5) = 2e-4 mm nearer, less than CLEARANCE_TOLERANCE_MM.
 DISTANCE_STEP_MM = 0.03
+# How far a short wire may stray, as a share of its length: from 25 mm on half a millimetre counts.
+KEPT = 0.02
 
 
 def turn_support(channels: Channels, walls: Sequence[Region]) -> tuple[TurnSupport, ...]:
@@ -83,10 +85,14 @@ def with_pins(support: Iterable[TurnSupport], pins: Iterable[Pin]) -> tuple[Turn
 
 
 def kept(turn: Turn, course_of: Mapping[str, Course]) -> float:
-    """The share of a turn along which its wire, laid under tension, keeps within SEEN_MM of the drawing."""
+    """The share of a turn along which its wire, laid under tension, keeps to the drawing.
+
+    That is within SEEN_MM, and KEPT of a short wire's length: a tiny zigzag pulled straight lost its shape.
+    """
     course = course_of[turn.wire]
     along = (course.at_mm >= turn.start_mm) & (course.at_mm <= turn.end_mm)
-    return float((course.off_mm[along] <= SEEN_MM).mean()) if along.any() else 1.0
+    near_mm = min(SEEN_MM, KEPT * float(course.at_mm[-1]))
+    return float((course.off_mm[along] <= near_mm).mean()) if along.any() else 1.0
 
 
 def refuse_unheld(support: Iterable[TurnSupport], config: JigConfig) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from wrapit.jig.made import reported
 from wrapit.jig.model import SEEN_MM, Course, Jig, JigSet, TurnSupport
-from wrapit.jig.support import stretch_support, total_support
+from wrapit.jig.support import held_share, really_held, stretch_support, total_support
 from wrapit.wires.model import Wire
 
 
@@ -36,6 +36,7 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "turn_support": round(total_support(support), 4),
         "turn_support_by_wire": by_wire,
         "weakest": {"wire": weakest, "turn_support": by_wire[weakest]},
+        "held": round(held_share(_held(jigs)), 4),
         "stretch_support": round(stretch_support(support), 4),
         "turns": [_turn_numbers(jig, each) for jig in jigs.jigs for each in jig.support],
         "taut": taut_numbers([course for jig in jigs.jigs for course in jig.plan.laid]),
@@ -44,6 +45,11 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [reported(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }
+
+
+def _held(jigs: JigSet) -> list[TurnSupport]:
+    """What is held in the end: by walls, by pins, or because the taut wire keeps to the drawing."""
+    return [one for jig in jigs.jigs for one in really_held(jig.support, jig.plan.pins, jig.plan.laid)]
 
 
 def taut_numbers(laid: Sequence[Course]) -> dict[str, Any]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
+from wrapit.geometry import FloatArray
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course
 from wrapit.jig.wall_ground import wall_polygons
@@ -31,6 +32,8 @@ SAME_MM = 0.5
 FAR_MM = 2.0
 APART_MM = 12.0
 STRAIGHT_RAD = 0.03
+# What strays by this much more or less strays alike: walls' corners are round to 5e-3 mm.
+ALIKE_MM = 0.02
 # Walls on one side of a wire with less between them are one: as a multiple of the narrowest wall.
 JOINED = 3.0
 # Rounds of adding walls, after which what strays is reported as it is.
@@ -92,13 +95,23 @@ def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator
     starts, ends = (np.flatnonzero(np.diff(strays.astype(int)) == step) for step in (1, -1))
     for a, b in zip(starts, ends, strict=True):
         chosen: list[float] = []
-        for place in a + np.argsort(-course.off_mm[a:b], kind="stable"):
+        for furthest in a + np.argsort(-np.round(course.off_mm[a:b] / ALIKE_MM), kind="stable"):
+            place = _middle(course.off_mm, int(furthest))
             at_mm = float(course.at_mm[place])
             if chosen and course.off_mm[place] <= FAR_MM:
                 break
             if all(abs(at_mm - other) >= APART_MM for other in chosen):
                 chosen.append(at_mm)
-                yield from _piece(course, int(place), held)
+                yield from _piece(course, place, held)
+
+
+def _middle(off_mm: FloatArray, place: int) -> int:
+    """The middle of the places around one that stray about as far: rounding doesn't choose among them."""
+    less = np.flatnonzero(off_mm < off_mm[place] - ALIKE_MM)
+    before, after = less[less < place], less[less > place]
+    first = int(before[-1]) + 1 if len(before) else 0
+    last = int(after[0]) - 1 if len(after) else len(off_mm) - 1
+    return (first + last) // 2
 
 
 def _piece(course: Course, place: int, held: Sequence[Turn]) -> Iterator[Turn]:
