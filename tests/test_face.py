@@ -162,9 +162,11 @@ def test_a_handle_added_with_build123d_is_one_solid_with_the_jig(jigs: JigSet) -
     thickness_mm = jigs.jigs[0].plan.plate.thickness_mm
     box = part.bounding_box()
     bar = Box(10, 22, thickness_mm, align=(Align.CENTER, Align.MAX, Align.MIN))
-    handled = part + Pos(box.center().X, box.min.Y + 2, 0) * bar
+    placed = Pos(box.center().X, box.min.Y + 2, 0) * bar
+    handled, shared = part + placed, part & placed
     assert len(handled.solids()) == 1
-    assert handled.volume == pytest.approx(part.volume + 10 * 20 * thickness_mm, rel=1e-6)
+    assert 0 < shared.volume < bar.volume / 5
+    assert handled.volume == pytest.approx(part.volume + bar.volume - shared.volume, rel=1e-6)
 
 
 def test_wires_lie_on_the_plate_of_the_jig_that_is_named(wires: tuple[Wire, ...], jigs: JigSet) -> None:

