@@ -20,6 +20,7 @@ from wrapit.errors import WrapItError
 from wrapit.geometry.outlines.exact import Outliner
 from wrapit.jig.channel import Channels
 from wrapit.jig.printed.plan import plan_jig
+from wrapit.jig.printed.smoothed import smoothed
 from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import total_support
 from wrapit.jig.wall_ground import wall_ground
@@ -61,7 +62,8 @@ def naive_seconds(wires: tuple[Wire, ...], config: JigConfig) -> tuple[float, in
     booleans = 0
     for wire in wires:
         for turn in wire.turns:
-            solid = _prism(_fitted_face(wall_ground(channels, turn, config)), top - 0.1, 5.1)
+            ground = wall_ground(channels, turn, config, config.wall_thickness)
+            solid = _prism(_fitted_face(ground), top - 0.1, 5.1)
             for slot in slots:
                 solid = BRepAlgoAPI_Cut(solid, slot).Shape()
                 booleans += 1
@@ -87,10 +89,8 @@ def _slots(channels: Channels) -> list[Any]:
 
 
 def _fitted_face(polygon: Any) -> Any:
-    from wrapit.jig.printed.solid import _fitted
-
-    largest = max(shapely.get_parts(polygon), key=lambda part: part.area)
-    return region_face(_fitted(shapely.Polygon(largest.exterior).simplify(0.005)))
+    largest = shapely.Polygon(max(shapely.get_parts(polygon), key=lambda part: part.area).exterior)
+    return region_face(smoothed(largest.simplify(0.005), largest.buffer(1.0), 0.001, 0.005))
 
 
 def _prism(face: Any, z: float, height: float) -> Any:

@@ -264,5 +264,5 @@ def test_a_pair_gets_a_mirrored_jig(bee: Path) -> None:
     assert {"jig-mirrored.step", "jig-mirrored.stl", "wires-mirrored.step", "preview-mirrored.png"} <= names
     assert jig["mirrored"]["valid"] is True
     assert jig["mirrored"]["turn_support"] == pytest.approx(jig["turn_support"], abs=0.03)
-    # Where two walls are as near as decides whether they are one, rounding does.
+    # A neck just as wide as the narrowest wall is cut on one side only, with 4 mm² behind it.
     assert jig["mirrored"]["volume_mm3"] == pytest.approx(jig["volume_mm3"], rel=0.02)

@@ -61,7 +61,7 @@ def test_boxes_in_a_row_dont_touch(rows: list[tuple[tuple[float, float], tuple[f
     moved = [(low[0] + by[0], high[0] + by[0]) for (low, high), by in zip(made, places, strict=True)]
     for (_, end), (start, _) in itertools.pairwise(moved):
         # A move of up to 5e-7 mm counts as rounding of 0 (it is rounded to 1e-6 before it is rounded up).
-        assert 10.0 - 6e-7 <= start - end < 10.001
+        assert 10.0 - 1e-9 <= start - end < 10.001
 
 
 @given(number, number)

@@ -97,7 +97,7 @@ def at_origin(low: FloatArray) -> tuple[float, float, float]:
 
 def _up(value: float) -> float:
     """Rounded up, as the report says it; what is only rounding of 0 is 0."""
-    return 0.0 + math.ceil(round(value, 6) * 1e4) / 1e4
+    return 0.0 + math.ceil(value * 1e4 - 1e-6) / 1e4
 
 
 def write_wires(wires: Wires, ring: JumpRing | None, config: Config, path: Path) -> tuple[Finding, ...]:

@@ -40,8 +40,7 @@ def test_a_taut_s_stays_within_the_tolerance(r1: float, a1: float, r2: float, a2
     assert walls.laid[0].off_mm.max() <= TAUT.taut_tolerance + 1e-9
 
 
-# At 20 mm two walls are as far apart as decides whether they are one (needs.JOINED): rounding does then.
-@pytest.mark.parametrize("radius_mm", [6, 12, 25, 45])
+@pytest.mark.parametrize("radius_mm", [6, 12, 20, 25, 45])
 def test_mirrored_wires_have_mirrored_walls(radius_mm: float) -> None:
     left = planned(arcs((0, 0), 0, (12, 0), (radius_mm, 100), (12, 0)))
     right = planned(arcs((0, 0), 0, (12, 0), (radius_mm, -100), (12, 0)))

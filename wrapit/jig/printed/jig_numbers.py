@@ -10,7 +10,8 @@ import numpy as np
 from wrapit.jig.made import reported
 from wrapit.jig.model import SEEN_MM, Course, Jig, JigSet, TurnSupport
 from wrapit.jig.support import held_share, really_held, stretch_support, total_support
-from wrapit.wires.model import Wire
+from wrapit.jig.taut.deviation import largest_within
+from wrapit.wires.model import Turn, Wire
 
 
 def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
@@ -45,6 +46,13 @@ def jig_numbers(jigs: JigSet, wires: Sequence[Wire]) -> dict[str, Any]:
         "min_wall_to_wire_mm": round(min(distances), 6) if distances else None,
         "size_mm": [reported(max(jig.size_mm[axis] for jig in jigs.jigs)) for axis in range(3)],
     }
+
+
+def _strays(turn: Turn, laid: Sequence[Course]) -> float:
+    """The furthest that a turn's wire lies off, laid under tension."""
+    course = next(course for course in laid if course.wire == turn.wire)
+    span_mm = np.array([[turn.start_mm, turn.end_mm]])
+    return float(largest_within(course.off_mm, course.at_mm, span_mm)[0])
 
 
 def _held(jigs: JigSet) -> list[TurnSupport]:
@@ -97,5 +105,6 @@ def _turn_numbers(jig: Jig, support: TurnSupport) -> dict[str, Any]:
         "inside": turn.inside,
         "min_radius_mm": reported(1 / bend) if bend > 0 else None,
         "support": round(support.share, 4),
+        "taut_mm": reported(_strays(turn, jig.plan.laid)),
         "pin_mm": pin,
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -32,13 +33,15 @@ LARGEST_LABEL_MM = 4.0
 # A wire's line on the plate ends within STEP of where it leaves it; shorter remains than SHORTEST are dots.
 _STEP_MM = 0.05
 _SHORTEST_MM = 0.5
-# An arrow head is as long and wide as two wires of 1 mm, so that it is seen beside one; it stands within the
-# first 12 mm, where there is room for all of it.
-_HEAD_MM, _HEAD_WITHIN_MM, _HEAD_STEP_MM = 2.0, 12.0, 0.5
+# An arrow head is as long and wide as two wires of 1 mm, so that it is seen beside one; it stands as near to
+# the wire's start as there is room for all of it.
+_HEAD_MM, _HEAD_STEP_MM = 2.0, 0.5
+# Points that numbers keep off are so near to one another that no number's box lies between them.
+_GRID_MM = 0.25
 
 
 def engraved_wires(wires: Sequence[Wire], plate: Region) -> tuple[Contour, ...]:
-    """Wire paths on the plate, clear of its edges, with an arrow head near each start.
+    """Wire paths on the plate, clear of its edges, each with an arrow head.
 
     What is run along twice is engraved once.
     """
@@ -54,7 +57,7 @@ def _arrow_head(wire: Wire, area: BaseGeometry) -> Contour | None:
 
     dense = chain_of(wire.centreline).sampled(0.02)
     reach = lengths(dense)
-    for at in np.arange(0.0, min(_HEAD_WITHIN_MM, reach[-1] - _HEAD_MM), _HEAD_STEP_MM):
+    for at in np.arange(0.0, reach[-1] - _HEAD_MM, _HEAD_STEP_MM):
         back, tip = at_lengths(dense, reach, np.array([at, at + _HEAD_MM]))
         corners = arrow_head(point_of(back), point_of(tip), _HEAD_MM)
         if area.contains(LineString(corners)):
@@ -67,7 +70,9 @@ def wire_numbers(wires: Sequence[Wire], plate: Region) -> tuple[tuple[Contour, .
     from shapely import box
 
     area = polygon_of(plate).buffer(-CLEAR_MM)
-    ink = np.vstack([*(chain_of(wire.centreline).sampled(0.5) for wire in wires), _points_outside(area)])
+    # A box that holds none of these points doesn't reach out of the area.
+    outside = _points_outside(area.buffer(-_GRID_MM * math.sqrt(2)))
+    ink = np.vstack([*(chain_of(wire.centreline).sampled(0.5) for wire in wires), outside])
     strokes: list[Contour] = []
     left = tuple(wires)
     placed: tuple[Label, ...] = ()
@@ -149,11 +154,11 @@ def _merged(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _points_outside(area: BaseGeometry) -> FloatArray:
-    """Points (n, 2) half a millimetre apart in the area's box and a little around it, but not in it."""
+    """Points (n, 2) on a grid in the area's box and a little around it, but not in it."""
     from shapely import contains_xy
 
     left, bottom, right, top = area.bounds
-    x, y = np.meshgrid(np.arange(left - 3, right + 3, 0.5), np.arange(bottom - 3, top + 3, 0.5))
+    x, y = np.meshgrid(np.arange(left - 3, right + 3, _GRID_MM), np.arange(bottom - 3, top + 3, _GRID_MM))
     points = np.column_stack([x.ravel(), y.ravel()])
     return points[~contains_xy(area, points)]
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
-
-import numpy as np
 
 from wrapit.geometry import FloatArray
 from wrapit.geometry.arclength import ArcLength
@@ -27,19 +25,16 @@ _REMEMBERED = 200
 def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:
     """The course of each wire round these walls (shapely polygons), in the order of the wires.
 
-    The shortest path that goes round the walls the same way as the drawn wire. Its ends are held; wires
-    don't hinder one another, as they lie in layers.
+    The shortest path that goes round the walls the same way as the drawn wire. Its ends are held in their
+    holes, those of a wire that closes too; wires don't hinder one another, as they lie in layers.
     """
     import shapely
 
-    grown = shapely.union_all(shapely.buffer(list(walls), channels.diameter_mm / 2, quad_segs=16)).simplify(
-        SIMPLER_MM
-    )
+    grown = shapely.union_all(shapely.buffer(list(walls), channels.diameter_mm / 2, quad_segs=16))
     places = [_places(wire) for wire in channels.wires]
-    closed = [wire.closed for wire in channels.wires]
-    ground = FreeGround.around(grown, [points for _, points in places], closed)
+    ground = FreeGround.around(grown.simplify(SIMPLER_MM), [points for _, points in places])
     return tuple(
-        _course(wire.name, ground.pulled(points, closed=wire.closed), at_mm, points)
+        _course(wire.name, ground.pulled(points), at_mm, points)
         for wire, (at_mm, points) in zip(channels.wires, places, strict=True)
     )
 
@@ -54,8 +49,3 @@ def _places(wire: Wire) -> tuple[FloatArray, FloatArray]:
     lengths = ArcLength(wire.centreline)
     at_mm = lengths.stations(STEP_MM)
     return at_mm, wire.centreline.at(lengths.parameter(at_mm))
-
-
-def all_off(laid: Sequence[Course]) -> FloatArray:
-    """How far off all wires lie, at equal steps along each, (n,)."""
-    return np.concatenate([course.off_mm for course in laid])

@@ -15,7 +15,6 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
-from wrapit.geometry import FloatArray
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course
 from wrapit.jig.wall_ground import wall_polygons
@@ -96,27 +95,27 @@ def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator
     for a, b in zip(starts, ends, strict=True):
         chosen: list[float] = []
         for furthest in a + np.argsort(-np.round(course.off_mm[a:b] / ALIKE_MM), kind="stable"):
-            place = _middle(course.off_mm, int(furthest))
-            at_mm = float(course.at_mm[place])
-            if chosen and course.off_mm[place] <= FAR_MM:
+            if chosen and course.off_mm[furthest] <= FAR_MM:
                 break
+            at_mm = _middle(course, int(furthest))
             if all(abs(at_mm - other) >= APART_MM for other in chosen):
                 chosen.append(at_mm)
-                yield from _piece(course, place, held)
+                yield from _piece(course, at_mm, held)
 
 
-def _middle(off_mm: FloatArray, place: int) -> int:
-    """The middle of the places around one that stray about as far: rounding doesn't choose among them."""
-    less = np.flatnonzero(off_mm < off_mm[place] - ALIKE_MM)
+def _middle(course: Course, place: int) -> float:
+    """Where the middle is of all that strays about as far around a place: rounding doesn't choose."""
+    over_mm = course.off_mm - (course.off_mm[place] - ALIKE_MM)
+    less = np.flatnonzero(over_mm < 0)
     before, after = less[less < place], less[less > place]
-    first = int(before[-1]) + 1 if len(before) else 0
-    last = int(after[0]) - 1 if len(after) else len(off_mm) - 1
-    return (first + last) // 2
+    alike = slice(int(before[-1]) + 1 if len(before) else 0, int(after[0]) if len(after) else len(over_mm))
+    return float(np.average(course.at_mm[alike], weights=over_mm[alike]))
 
 
-def _piece(course: Course, place: int, held: Sequence[Turn]) -> Iterator[Turn]:
+def _piece(course: Course, at_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
     """The shortest piece of wall at a place that isn't planned yet, if there is one."""
-    at_mm, end_mm, side = float(course.at_mm[place]), float(course.at_mm[-1]), _side(course, place)
+    end_mm, place = float(course.at_mm[-1]), int(np.abs(course.at_mm - at_mm).argmin())
+    side = _side(course, place)
     for length_mm in PIECES_MM:
         low, high = max(0.0, at_mm - length_mm / 2), min(end_mm, at_mm + length_mm / 2)
         piece = Turn(course.wire, low, high, side, 0.0, stretch=True)

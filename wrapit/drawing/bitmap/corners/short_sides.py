@@ -21,6 +21,8 @@ _MOSTLY = 90
 _ENOUGH = 0.02
 # How long may a crowd be? Eight corners three widths apart, less the last.
 _LONGEST = 20
+# Fewer points of the middle line than this say nothing: a chain of two sides has as many unknowns.
+_FEWEST = 8
 # When does a chain fit? Grey edges are off by 0.01 to 0.02, hard ones by up to a fifth of a pixel; with 0.02
 # and 0.14 px 101 and 121 chains come out right instead of 123, with 0.036 and 0.26 px 127 and 127.
 _GOOD = 0.028
@@ -53,18 +55,31 @@ class Chain:
         return Line(points, np.full(count, self.width_px), np.ones(count, dtype=np.bool_), lengths(points))
 
 
+def stretch_of(line: Line, first: int, last: int, longest: float) -> tuple[FloatArray, float] | None:
+    """The middle line (n, 2) from one point to another, and how wide its ink is.
+
+    None where that is of too few points, or longer than `longest` widths.
+    """
+    if last - first < _FEWEST:
+        return None
+    width_px = float(np.median(line.width[first : last + 1][line.clean[first : last + 1]]))
+    if line.along[last] - line.along[first] > longest * width_px:
+        return None
+    return line.points[first : last + 1], width_px
+
+
 def chain_between(line: Line, ink: Ink, start: int, end: int, known: list[FloatArray]) -> Chain | None:
     """The chain that fits the ink between two points of a line best.
 
     None where there is none that fits clearly better than the line itself, or `known` corners, do.
     """
     first, last = clean_from(line, start, -1), clean_from(line, end, 1)
-    if first is None or last is None or last - first < 8:
+    if first is None or last is None:
         return None
-    middle, clean = line.points[first : last + 1], line.clean[first : last + 1]
-    width_px = float(np.median(line.width[first : last + 1][clean]))
-    if line.along[last] - line.along[first] > _LONGEST * width_px:
+    stretch = stretch_of(line, first, last, _LONGEST)
+    if stretch is None:
         return None
+    middle, width_px = stretch
     edge = edge_points(ink, middle, width_px)
     plain = missed(middle, edge, width_px)
     if np.percentile(np.abs(plain.outside), _MOSTLY) < _ENOUGH:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.corners.curved_sides import Curves, curves_of
 from wrapit.drawing.bitmap.corners.edge_fit import missed
-from wrapit.drawing.bitmap.corners.short_sides import clean_from, edges_from
+from wrapit.drawing.bitmap.corners.short_sides import clean_from, edges_from, stretch_of
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
@@ -191,12 +191,12 @@ def _chain(
     spans: list[tuple[int, int, FloatArray]],
 ) -> CurvedChain | None:
     first, last = (_clean_end(line, at, sign, limits) for at, sign in zip(window, (-1, 1), strict=True))
-    if first is None or last is None or last - first < 8:
+    if first is None or last is None:
         return None
-    middle, clean = line.points[first : last + 1], line.clean[first : last + 1]
-    width_px = float(np.median(line.width[first : last + 1][clean]))
-    if line.along[last] - line.along[first] > _LONGEST * width_px:
+    stretch = stretch_of(line, first, last, _LONGEST)
+    if stretch is None:
         return None
+    middle, width_px = stretch
     edge, _ = edges_from(ink, middle, width_px)
     edge = edge[_beside_line(middle, edge, width_px)]
     plain = missed(_explained(line, first, last, spans), edge, width_px)
