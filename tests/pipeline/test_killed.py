@@ -173,3 +173,41 @@ def test_the_temporary_folder_of_a_living_build_is_left_to_it(tmp_path: Path) ->
         ]
         subprocess.run([*run, str(tmp_path / "out")], check=True, timeout=60)
         assert held(partial) == {"a.step": b"one"}
+
+
+# What calls the program with a command during which the signal comes where its exception is thrown away.
+MEANWHILE = """
+import signal, sys, time
+from importlib import import_module
+
+class Swallows:
+    def __del__(self):
+        signal.raise_signal(signal.NAME)
+
+def converts():
+    try:
+        signal.raise_signal(signal.NAME)
+    except BaseException:
+        raise ImportError("the module could not be initialised") from None
+
+def app(arguments, standalone_mode):
+    AMID()
+    time.sleep(30)
+
+main = import_module("wrapit.cli.main")
+main.app = app
+sys.argv = ["wrapit", "build"]
+main.main()
+"""
+
+
+@pytest.mark.parametrize("signum", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT], ids=lambda each: each.name)
+@pytest.mark.parametrize("amid", ["Swallows", "converts"])
+def test_a_signal_is_not_lost_with_its_exception(signum: signal.Signals, amid: str) -> None:
+    """Python throws away what finalisers raise; native modules amid their loading make ImportErrors of it."""
+    script = MEANWHILE.replace("NAME", signum.name).replace("AMID", amid)
+    ended = subprocess.run(
+        [sys.executable, "-c", script], check=False, capture_output=True, text=True, timeout=20
+    )
+    assert ended.stderr.splitlines() == ["error: " + INTERRUPTED]
+    assert ended.returncode == 128 + signum

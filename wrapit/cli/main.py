@@ -8,6 +8,7 @@ import json
 import os
 import signal
 import sys
+import threading
 from types import FrameType
 from typing import NoReturn
 
@@ -18,6 +19,10 @@ from wrapit.errors import WrapItError
 INTERRUPTED = 130
 # System errors whose remedy isn't "check the path".
 _DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
+# Once more after a signal came where Python throws exceptions away: long enough to be out of there.
+_AGAIN_S = 0.01
+# The signals that asked this process to end.
+_came: list[int] = []
 
 
 class Terminated(BaseException):
@@ -25,13 +30,14 @@ class Terminated(BaseException):
 
     def __init__(self, signum: int) -> None:
         super().__init__(signum)
+        self.signum = signum
         self.exit_code = 128 + signum
 
 
 def main() -> NoReturn:
     """Runs the command in `sys.argv` and exits."""
-    for signum in _ending():
-        signal.signal(signum, _terminate)
+    _arm()
+    sys.unraisablehook = _not_lost
     _replace_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -62,10 +68,36 @@ def _replace_closed_streams() -> None:
         sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115  lives as long as the program
 
 
+def _arm() -> None:
+    for signum in _ending():
+        signal.signal(signum, _terminate)
+
+
 def _terminate(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001  the signature is Python's
+    _came.append(signum)
     for each in _ending():
         signal.signal(each, signal.SIG_IGN)  # clearing away is under way, and isn't to be ended half-way
     raise Terminated(signum)
+
+
+def _not_lost(unraisable: sys.UnraisableHookArgs) -> None:
+    """Signals that come amid a finaliser or an import's own callbacks come again a moment later."""
+    ended = unraisable.exc_value
+    if not isinstance(ended, Terminated):
+        sys.__unraisablehook__(unraisable)
+        return
+    signal.signal(ended.signum, _terminate)
+    again = threading.Timer(_AGAIN_S, _signal_main, [ended.signum])
+    again.daemon = True
+    again.start()
+
+
+def _signal_main(signum: int) -> None:
+    main_thread = threading.main_thread().ident
+    if sys.platform == "win32" or main_thread is None:
+        signal.raise_signal(signum)
+    else:
+        signal.pthread_kill(main_thread, signum)  # so that it also ends what the main thread waits for
 
 
 def _exit_code(arguments: list[str]) -> int:
@@ -80,16 +112,22 @@ def _exit_code(arguments: list[str]) -> int:
         return code
     except (Terminated, KeyboardInterrupt) as ended:
         code = ended.exit_code if isinstance(ended, Terminated) else INTERRUPTED
-        return _report("interrupted", "interrupted; earlier files are untouched", "", "", code, arguments)
+        return _interrupted(code, arguments)
     except BrokenPipeError:
         _drop_stdout()  # the reader has seen enough, as `| head` has
         return 1
     except Exception as error:  # noqa: BLE001  the last line of defence: one line, not a traceback
+        if _came:  # native modules amid their loading make ImportErrors of what a signal raised
+            return _interrupted(128 + _came[0], arguments)
         if "-vv" in arguments:
             import traceback
 
             traceback.print_exc()
         return _failed(error, arguments)
+
+
+def _interrupted(exit_code: int, arguments: list[str]) -> int:
+    return _report("interrupted", "interrupted; earlier files are untouched", "", "", exit_code, arguments)
 
 
 def _failed(error: Exception, arguments: list[str]) -> int:
