@@ -108,7 +108,7 @@ class JigConfig(Block):
     base_thickness: Annotated[float, length("0.2 mm", "100 mm", "2.4 mm")] = 2.4
     """Thickness of the plate; 2.4 mm are twelve layers of 0.2 mm, and hold."""
 
-    margin: Annotated[float, length("0.1 mm", "200 mm", "4 mm")] = 4.0
+    margin: Annotated[float, length("0.1 mm", "200 mm", "3 mm")] = 3.0
     """Plate around the walls and wires; without any, walls end on its edge and the solid is not sound."""
 
     corner_radius: Annotated[float, length("0 mm", "200 mm", "3 mm")] = 3.0

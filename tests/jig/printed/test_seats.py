@@ -59,7 +59,7 @@ def test_walls_and_numbers_keep_off_the_pocket() -> None:
         assert not any(polygon_of(wall, 1e-2).intersects(pocket) for wall in jig.walls)
         for label in jig.plan.labels:
             assert not any(polygon_of(stroke, 1e-2).intersects(pocket) for stroke in label.strokes)
-        assert shapely.Polygon(jig.plate.outer.sampled(0.01)).buffer(-3.9).contains(pocket)
+        assert shapely.Polygon(jig.plate.outer.sampled(0.01)).buffer(-2.9).contains(pocket)
     assert len(jig.plate.holes) == len(jig.plan.holes) + 2
 
 

@@ -23,6 +23,9 @@ WIDTH_SHARE = 0.6
 # RESERVE), and between two grooves: narrower webs don't print, so the grooves become one.
 WEB_MM = 0.3
 RESERVE_MM = 0.02
+# Beside a wall the wall shows the way, up to this far beyond what a wire there takes up. Grooves there as well
+# cut the plate's inside into pieces that slicers fill solid: the butterfly prints in 62 instead of 64 min.
+BESIDE_MM = 1.5
 # A shorter piece of groove says nothing: twice as long as it is wide.
 LEAST_MM2 = 0.72
 # An arrow head is seen on both sides of the wire that lies on it: 2 mm long and wide for wire of 1 mm. It
@@ -48,7 +51,8 @@ def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     web = min(WEB_MM, channels.face_mm - width / 2 - RESERVE_MM)
     free = shapely.union_all([walls.buffer(web), kept_free.buffer(WEB_MM)])
     heads = [_head(channels, index, free) for index in range(len(channels.wires))]
-    lines = [line.buffer(width / 2, cap_style="flat") for line in channels.lines]
+    beside = walls.buffer(channels.reach_mm + BESIDE_MM)
+    lines = [line.difference(beside).buffer(width / 2, cap_style="flat") for line in channels.lines]
     marked = shapely.union_all([*lines, *(head for head in heads if head is not None)])
     whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2, join_style="mitre", mitre_limit=BLUNT)
     whole = whole.difference(free)
