@@ -55,7 +55,8 @@ class Missed:
     @cached_property
     def rms(self) -> float:
         """Root mean square, with outliers (other ink) bounded."""
-        return float(np.sqrt(np.mean(np.clip(self.outside, -_OUTLIER, _OUTLIER) ** 2)))
+        bounded = np.minimum(np.abs(self.outside), _OUTLIER)
+        return math.sqrt(float(bounded @ bounded) / len(bounded))
 
 
 def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
@@ -92,12 +93,13 @@ def _beside_corner(
 ) -> FloatArray:
     (ax, ay), (bx, by), (x, y) = courses[corner - 1].T, courses[corner].T, gap.T
     outwards_x, outwards_y = ax - bx, ay - by
-    half_turn = np.arccos(np.clip(ax * bx + ay * by, -1, 1)) / 2
+    half_turn = np.arccos(np.minimum(np.maximum(ax * bx + ay * by, -1), 1)) / 2
     norm = np.sqrt((outwards_x**2 + outwards_y**2) * (x**2 + y**2))
-    aside = np.arccos(np.clip((x * outwards_x + y * outwards_y) / np.maximum(norm, 1e-9), -1, 1))
+    cosine = (x * outwards_x + y * outwards_y) / np.maximum(norm, 1e-9)
+    aside = np.arccos(np.minimum(np.maximum(cosine, -1), 1))
     bevel = 0.5 * np.cos(half_turn) / np.maximum(np.cos(aside), 0.1)
     mitre = 0.5 / np.maximum(np.cos(half_turn - aside), 0.1)
-    return distance - np.clip(distance, np.minimum(bevel, 0.5), np.maximum(mitre, 0.5))
+    return distance - np.minimum(np.maximum(distance, np.minimum(bevel, 0.5)), np.maximum(mitre, 0.5))
 
 
 def fitted(chain: FloatArray, edge: FloatArray, width_px: float) -> tuple[FloatArray, Missed]:
@@ -121,9 +123,9 @@ def settled(
     """
     moving = start.copy()
     seen = missed(ends(moving), edge, width_px)
-    damping = 1e-3
+    damping, equations = 1e-3, _equations(seen, shares, width_px)
     for _ in range(_ROUNDS):
-        step = _step(seen, shares, width_px, damping)
+        step = _step(*equations, width_px, damping)
         moved = moving.copy()
         moved[inner] += step
         new = missed(ends(moved), edge, width_px)
@@ -136,18 +138,23 @@ def settled(
         moving, seen, damping = moved, new, max(damping / 10, 1e-4)
         if gained < _SETTLED:
             break
+        equations = _equations(seen, shares, width_px)
     return moving, seen
 
 
-def _step(seen: Missed, shares: FloatArray, width_px: float, damping: float) -> FloatArray:
+def _equations(seen: Missed, shares: FloatArray, width_px: float) -> tuple[FloatArray, FloatArray]:
+    """The normal matrix of what moves, in x and y, and its right side, from what edges miss."""
     used = np.flatnonzero(np.abs(seen.outside) < _OUTLIER)
     side, share = seen.side[used], seen.share[used, None]
     moves = (1 - share) * shares[side] + share * shares[side + 1]
     # How moving each point changes what edges are missed by: (n, inner, 2), in rows of x and y in turn.
     slope = (moves[:, :, None] * -seen.away[used, None]).reshape(len(used), -1)
-    normal = slope.T @ slope
-    normal.flat[:: len(normal) + 1] += damping * (np.trace(normal) / len(normal) + 1e-9)
-    step = -np.linalg.solve(normal, slope.T @ (seen.outside[used] * width_px)).reshape(-1, 2)
+    return slope.T @ slope, slope.T @ (seen.outside[used] * width_px)
+
+
+def _step(normal: FloatArray, right: FloatArray, width_px: float, damping: float) -> FloatArray:
+    damped = normal + damping * (np.trace(normal) / len(normal) + 1e-9) * np.eye(len(normal))
+    step = -np.linalg.solve(damped, right).reshape(-1, 2)
     longest = float(np.hypot(step[:, 0], step[:, 1]).max())
     return step * min(1.0, 0.3 * width_px / max(longest, 1e-9))
 
