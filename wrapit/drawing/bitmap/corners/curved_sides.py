@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.corners.edge_fit import Missed, farthest, settled, slopes
+from wrapit.drawing.bitmap.corners.edge_fit import Missed, farthest, settled
 from wrapit.geometry import FloatArray, unit
 
 # In stroke widths. Measured on 120 strokes of 1 to 3 corners, 68 to 140 degrees, between arcs of radius 1 to
@@ -83,14 +83,10 @@ def fitted_curves(curves: Curves, edge: FloatArray, width_px: float) -> tuple[Cu
     inner = np.r_[1 : count - 1, count : 2 * count - 1]
     start = np.vstack([curves.corners, curves.bulges])
 
-    def slope(seen: Missed) -> FloatArray:
-        # (n, ends of facets, 2) to (n, what moves, 2)
-        return np.einsum("nfk,fm->nmk", slopes(seen, len(shares)), shares[:, inner])
-
     def ends(moved: FloatArray) -> FloatArray:
         return shares @ _upright(moved, count)
 
-    best, seen = settled(start, inner, ends, slope, edge, width_px)
+    best, seen = settled(start, inner, ends, shares[:, inner], edge, width_px)
     best = _upright(best, count)
     return Curves(best[:count], best[count:]), seen
 

@@ -55,7 +55,8 @@ class Missed:
     @cached_property
     def rms(self) -> float:
         """Root mean square, with outliers (other ink) bounded."""
-        return float(np.sqrt(np.mean(np.clip(self.outside, -_OUTLIER, _OUTLIER) ** 2)))
+        bounded = np.minimum(np.abs(self.outside), _OUTLIER)
+        return math.sqrt(float(bounded @ bounded) / len(bounded))
 
 
 def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
@@ -90,44 +91,41 @@ def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
 def _beside_corner(
     courses: FloatArray, corner: NDArray[np.intp], gap: FloatArray, distance: FloatArray
 ) -> FloatArray:
-    before, after = courses[corner - 1], courses[corner]
-    outwards = before - after
-    half_turn = np.arccos(np.clip((before * after).sum(axis=1), -1, 1)) / 2
-    norm = np.maximum(np.linalg.norm(outwards, axis=1) * np.linalg.norm(gap, axis=1), 1e-9)
-    aside = np.arccos(np.clip((gap * outwards).sum(axis=1) / norm, -1, 1))
+    (ax, ay), (bx, by), (x, y) = courses[corner - 1].T, courses[corner].T, gap.T
+    outwards_x, outwards_y = ax - bx, ay - by
+    half_turn = np.arccos(np.minimum(np.maximum(ax * bx + ay * by, -1), 1)) / 2
+    norm = np.sqrt((outwards_x**2 + outwards_y**2) * (x**2 + y**2))
+    cosine = (x * outwards_x + y * outwards_y) / np.maximum(norm, 1e-9)
+    aside = np.arccos(np.minimum(np.maximum(cosine, -1), 1))
     bevel = 0.5 * np.cos(half_turn) / np.maximum(np.cos(aside), 0.1)
     mitre = 0.5 / np.maximum(np.cos(half_turn - aside), 0.1)
-    return distance - np.clip(distance, np.minimum(bevel, 0.5), np.maximum(mitre, 0.5))
+    return distance - np.minimum(np.maximum(distance, np.minimum(bevel, 0.5)), np.maximum(mitre, 0.5))
 
 
 def fitted(chain: FloatArray, edge: FloatArray, width_px: float) -> tuple[FloatArray, Missed]:
     """The chain with its inner corners moved so that its ink's edges fit best."""
     inner = np.arange(1, len(chain) - 1)
-
-    def slope(seen: Missed) -> FloatArray:
-        return slopes(seen, len(chain))[:, 1:-1]
-
-    return settled(chain, inner, lambda moved: moved, slope, edge, width_px)
+    return settled(chain, inner, lambda moved: moved, np.eye(len(chain))[:, inner], edge, width_px)
 
 
 def settled(
     start: FloatArray,
     inner: NDArray[np.intp],
     ends: Callable[[FloatArray], FloatArray],
-    slope: Callable[[Missed], FloatArray],
+    shares: FloatArray,
     edge: FloatArray,
     width_px: float,
 ) -> tuple[FloatArray, Missed]:
     """Points (m, 2), those `inner` moved until a chain's edges fit best (Gauss and Newton's method).
 
-    The chain has its `ends` of sides from the points, and `slope` (n, inner, 2) tells how moving those
-    changes what edges are missed by.
+    The chain has its `ends` of sides from the points; `shares` (ends, inner) tells how much of each of those
+    that move is in each of them.
     """
     moving = start.copy()
     seen = missed(ends(moving), edge, width_px)
-    damping = 1e-3
+    damping, equations = 1e-3, _equations(seen, shares, width_px)
     for _ in range(_ROUNDS):
-        step = _step(slope(seen), seen, width_px, damping)
+        step = _step(*equations, width_px, damping)
         moved = moving.copy()
         moved[inner] += step
         new = missed(ends(moved), edge, width_px)
@@ -140,26 +138,24 @@ def settled(
         moving, seen, damping = moved, new, max(damping / 10, 1e-4)
         if gained < _SETTLED:
             break
+        equations = _equations(seen, shares, width_px)
     return moving, seen
 
 
-def slopes(seen: Missed, count: int) -> FloatArray:
-    """How moving each of `count` ends of sides changes what edges (n,) are missed by: (n, count, 2)."""
-    rows = np.arange(len(seen.side))
-    slope = np.zeros((len(rows), count, 2))
-    slope[rows, seen.side] = -seen.away * (1 - seen.share)[:, None]
-    slope[rows, seen.side + 1] += -seen.away * seen.share[:, None]
-    return slope
+def _equations(seen: Missed, shares: FloatArray, width_px: float) -> tuple[FloatArray, FloatArray]:
+    """The normal matrix of what moves, in x and y, and its right side, from what edges miss."""
+    used = np.flatnonzero(np.abs(seen.outside) < _OUTLIER)
+    side, share = seen.side[used], seen.share[used, None]
+    moves = (1 - share) * shares[side] + share * shares[side + 1]
+    # How moving each point changes what edges are missed by: (n, inner, 2), in rows of x and y in turn.
+    slope = (moves[:, :, None] * -seen.away[used, None]).reshape(len(used), -1)
+    return slope.T @ slope, slope.T @ (seen.outside[used] * width_px)
 
 
-def _step(slope: FloatArray, seen: Missed, width_px: float, damping: float) -> FloatArray:
-    weight = np.abs(seen.outside) < _OUTLIER
-    used = slope[weight].reshape(weight.sum(), -1)
-    normal = used.T @ used
-    scale = damping * (np.trace(normal) / len(normal) + 1e-9)
-    right = used.T @ (seen.outside[weight] * width_px)
-    step = -np.linalg.solve(normal + scale * np.eye(len(normal)), right).reshape(-1, 2)
-    longest = float(np.linalg.norm(step, axis=1).max())
+def _step(normal: FloatArray, right: FloatArray, width_px: float, damping: float) -> FloatArray:
+    damped = normal + damping * (np.trace(normal) / len(normal) + 1e-9) * np.eye(len(normal))
+    step = -np.linalg.solve(damped, right).reshape(-1, 2)
+    longest = float(np.hypot(step[:, 0], step[:, 1]).max())
     return step * min(1.0, 0.3 * width_px / max(longest, 1e-9))
 
 
