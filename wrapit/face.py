@@ -71,8 +71,8 @@ def build_jigs(wires: Sequence[Wire], config: Config | None = None) -> tuple[Jig
 
     Raises JigError where no jig holds the wires, KernelError where the solid modeller fails.
     """
+    from wrapit.jig.overbending import overbend_wires
     from wrapit.jig.printed.stage import build_jig
-    from wrapit.wires.springback import overbend_wires
 
     config = config if config is not None else _usual()
     laid = tuple(wires)

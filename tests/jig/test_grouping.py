@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.jig.metal import arcs, circle, config, line, wires_of
-from wrapit.jig.grouping import fewest_groups
+from wrapit.jig.parting.grouping import fewest_groups
 from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import support_by_wire
 

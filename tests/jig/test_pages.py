@@ -20,7 +20,15 @@ def constants() -> list[tuple[Path, str, str]]:
 
 
 def test_there_are_pages_and_they_name_constants() -> None:
-    assert [page.parent.name for page in PAGES] == ["jig", "pegs", "printed", "sheet", "taut", "wrapping"]
+    assert [page.parent.name for page in PAGES] == [
+        "jig",
+        "parting",
+        "pegs",
+        "printed",
+        "sheet",
+        "taut",
+        "wrapping",
+    ]
     assert len(constants()) >= 30
     assert {page for page, _, _ in constants()} == set(PAGES)
 

@@ -16,7 +16,7 @@ from wrapit.geometry import BezierChain, BSpline, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.recurving import best_fit, recurved
 from wrapit.materials import METALS
-from wrapit.wires.springback import Overbent, overbend, overbend_wires
+from wrapit.wires.springback import Overbent, overbend
 from wrapit.wires.stage import draw_wires
 
 # Half-hard copper of 1 mm: 3.395 · 200 MPa / (117 GPa · 1 mm).
@@ -60,6 +60,20 @@ def test_a_straight_wire_stays_where_it_is() -> None:
     assert over.moved_mm < 1e-9
     assert over.overbend_rad == pytest.approx(0)
     assert over.wire.ends == pytest.approx(np.array([[3, 4], [43, 34]]))
+
+
+@given(st.lists(st.tuples(st.floats(0, 31), st.floats(0, 31)), max_size=4))
+def test_bent_further_where_it_is_held_alone(ends: list[tuple[float, float]]) -> None:
+    (wire,) = wires_of([arcs((0, 0), 0, (10, 180))], diameter_mm=1.0)
+    held = [(min(each), max(each)) for each in ends]
+    over = overbend(wire, LOSS, JigConfig(), held)
+    covered = np.linspace(0, 31.4, 31401)
+    held_mm = 31.4 * np.any([(a < covered) & (covered < b) for a, b in [(-1, -1), *held]], axis=0).mean()
+    bend = over.wire.centreline
+    turned = (heading(bend, 1) - heading(bend, 0)) % (2 * math.pi)
+    assert turned == pytest.approx(math.pi + held_mm * LOSS, abs=2e-4)
+    assert over.overbend_rad == pytest.approx(held_mm * LOSS, abs=2e-3)
+    assert over.residual_mm < 1e-3
 
 
 def test_a_corner_keeps_its_angle() -> None:
@@ -112,17 +126,6 @@ def test_no_change_gives_the_same_curve() -> None:
     assert apart_mm(drawn, same) < 1e-7
 
 
-def test_each_wire_is_told_of() -> None:
-    config = Config.model_validate(
-        {"drawing": "a.svg", "wire": {"gauge": "1.0 mm", "temper": "half hard"}, "name": "a"}
-    )
-    wires = wires_of([circle(10), arcs((0, 0), 0, (10, 90))], diameter_mm=1.0)
-    over, findings = overbend_wires(wires, config)
-    assert [f.where for f in findings] == ["wire-01", "wire-02"]
-    assert "5° further" in findings[1].message
-    assert over[1].overbend_rad == pytest.approx(math.pi / 2 * 10 * LOSS, rel=1e-4)
-
-
 def test_corners_are_drawn_so_wide_that_the_overbent_one_is_the_tightest_allowed() -> None:
     drawing = drawing_of([(0, 0), (20, 0), (20, 20)], [(0, 1, None), (1, 2, None)])
     solution = solution_of(drawing, [[(0, False), (1, False)]])
@@ -133,6 +136,6 @@ def test_corners_are_drawn_so_wide_that_the_overbent_one_is_the_tightest_allowed
     wires, _ = draw_wires(solution, settings)
     tightest = 1.5  # an inner radius of one diameter
     assert wires[0].min_bend_radius_mm == pytest.approx(1 / (1 / tightest - LOSS), rel=1e-3)
-    (over,), _ = overbend_wires(wires, settings)
+    over = overbend(wires[0], LOSS, settings.jig)
     u = np.linspace(*over.wire.centreline.domain, 4001)
     assert 1 / np.abs(over.wire.centreline.curvature(u)).max() == pytest.approx(tightest, rel=5e-3)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,6 +17,7 @@ from wrapit.geometry.bspline import BSpline, from_chain
 # How finely a curve is taken apart: circles come out within 2e-4 mm and 1e-5 of their length (tested).
 PIECE_MM, PIECE_RAD = 4.0, 0.5
 STEPS = 12  # of integration in each piece
+LEAST_PIECE = 1e-7  # of the whole; what is shorter has no direction of its own
 # Gauss's rule with three nodes, for the steps.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 _NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
@@ -31,21 +32,30 @@ _TO_NODES: Final = np.column_stack(
 )
 
 
-def recurved(spline: BSpline, change: Callable[[FloatArray], FloatArray]) -> BSpline:
+def recurved(
+    spline: BSpline,
+    change: Callable[[FloatArray], FloatArray],
+    within: Sequence[tuple[float, float]] | None = None,
+) -> BSpline:
     """The curve whose signed curvature is κ + change(κ), from the same start in the same direction.
 
-    `change` maps curvatures (m,) in 1/mm to what is added. Lengths stay: each tangent is turned by what
+    `change` maps curvatures (m,) in 1/mm to what is added, everywhere or `within` these intervals of the
+    parameter, which don't overlap. Lengths stay: each tangent is turned by what
     the change adds up to before it, and the turned tangents are summed up (Gauss, three points). Corners
     keep their angles. With no change the curve comes back exactly; else it is within about 1e-4 mm.
     """
-    nodes = np.concatenate([[spline.breaks[0]], *_pieces(spline)])
+    ends = np.array(within if within is not None else [spline.domain], dtype=float).reshape(-1, 2)
+    nodes = _apart(np.unique(np.concatenate([[spline.breaks[0]], *_pieces(spline), ends.ravel()])))
     u = np.concatenate(
         [np.linspace(a, b, STEPS + 1)[:-1] for a, b in itertools.pairwise(nodes)] + [nodes[-1:]]
     )
     width = np.diff(u)
     inner = u[:-1, None] + width[:, None] * _NODES
     velocity = spline.derivative(inner.ravel()).reshape(-1, 3, 2)
+    middle = (u[:-1] + u[1:]) / 2
+    changes = ((ends[:, :1] < middle) & (middle < ends[:, 1:])).any(axis=0)
     gain = change(spline.curvature(inner.ravel())).reshape(-1, 3) * np.linalg.norm(velocity, axis=2)
+    gain *= changes[:, None]
     before = np.concatenate([[0.0], np.cumsum((gain @ _WEIGHTS) * width)])
     angle = before[:-1, None] + width[:, None] * (gain @ _TO_NODES.T)
     steps = np.einsum("ink,n->ik", _turned(velocity, angle), _WEIGHTS) * width[:, None]
@@ -74,6 +84,14 @@ def best_fit(points: FloatArray, onto: FloatArray) -> Fit:
     matrix = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     apart = np.linalg.norm(a @ matrix.T - b, axis=1)
     return Fit(matrix, target - matrix @ centre, float(apart.max(initial=0.0)))
+
+
+def _apart(nodes: FloatArray) -> FloatArray:
+    """Nodes (n,) in order without those that all but repeat the one before, or the last."""
+    least = LEAST_PIECE * (nodes[-1] - nodes[0])
+    inner = nodes[1:-1]
+    kept = (np.diff(nodes)[:-1] > least) & (nodes[-1] - inner > least)
+    return np.concatenate([nodes[:1], inner[kept], nodes[-1:]])
 
 
 def _pieces(spline: BSpline) -> list[FloatArray]:

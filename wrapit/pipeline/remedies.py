@@ -60,7 +60,7 @@ def held_share(config: Config, drawing_path: Path) -> float:
     from wrapit.decomposition.stage import decompose
     from wrapit.drawing.stage import trace
     from wrapit.jig.kinds import JIGS
-    from wrapit.wires.springback import overbend_wires
+    from wrapit.jig.overbending import overbend_wires
     from wrapit.wires.stage import draw_wires
 
     try:

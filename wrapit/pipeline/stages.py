@@ -110,7 +110,7 @@ def _draw_wires(work: Work, folder: Path | None) -> None:
 def _laid(work: Work) -> tuple[Wire, ...]:
     if work.config.jig.springback == "report":
         return work.wires
-    from wrapit.wires.springback import overbend_wires
+    from wrapit.jig.overbending import overbend_wires
 
     bent, findings = overbend_wires(work.wires, work.config)
     work.findings += findings

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.config import Config, JigConfig
-from wrapit.errors import Finding
+from wrapit.config import JigConfig
 from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.recurving import best_fit, recurved
-from wrapit.materials import METALS
 from wrapit.wires.model import Wire
 from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.turns import find_turns
@@ -38,20 +35,18 @@ class Overbent:
     residual_mm: float
 
 
-def overbend_wires(wires: Sequence[Wire], config: Config) -> tuple[tuple[Overbent, ...], tuple[Finding, ...]]:
-    """Each wire overbent by what its metal springs back, alone: overbent wires don't meet as drawn."""
-    loss = METALS[config.wire.metal].springback_per_mm(config.wire.gauge, config.wire.temper)
-    bent = tuple(overbend(wire, loss, config.jig) for wire in wires)
-    return bent, tuple(_finding(each) for each in bent)
-
-
-def overbend(wire: Wire, loss_per_mm: float, config: JigConfig) -> Overbent:
+def overbend(
+    wire: Wire, loss_per_mm: float, config: JigConfig, held_mm: Sequence[tuple[float, float]] | None = None
+) -> Overbent:
     """The wire with curvature κ + sign(κ) · loss, which κ_after = κ_bend − loss turns into κ again.
 
-    Next to straight, the loss is added in proportion, so that the course has no jumps.
+    Next to straight, the loss is added in proportion, so that the course has no jumps. It is added all
+    along, or where walls hold the wire: `held_mm` are intervals of its length, which may overlap. Between
+    walls a wire under tension is straight, and has nothing to lose.
     """
     drawn = wire.centreline
-    bent = recurved(drawn, lambda k: np.clip(k / STRAIGHT, -loss_per_mm, loss_per_mm))
+    within = None if held_mm is None else _united(ArcLength(drawn), held_mm)
+    bent = recurved(drawn, lambda k: np.clip(k / STRAIGHT, -loss_per_mm, loss_per_mm), within)
     fit = best_fit(*_side_by_side(bent, drawn))
     bent = fit.moved(bent)
     (lifts,) = lay_wires([bent], wire.diameter_mm)
@@ -64,22 +59,43 @@ def overbend(wire: Wire, loss_per_mm: float, config: JigConfig) -> Overbent:
     )
     return Overbent(
         wire=laid,
-        overbend_rad=_added(drawn, loss_per_mm),
+        overbend_rad=_added(drawn, loss_per_mm, within),
         moved_mm=fit.apart_mm,
-        residual_mm=best_fit(*_side_by_side(released(bent, loss_per_mm), drawn)).apart_mm,
+        residual_mm=best_fit(*_side_by_side(released(bent, loss_per_mm, within), drawn)).apart_mm,
     )
 
 
-def released(spline: BSpline, loss_per_mm: float) -> BSpline:
-    """What becomes of a bent wire that is let go: it loses curvature, all of it where it has no more."""
-    return recurved(spline, lambda k: -np.clip(k, -loss_per_mm, loss_per_mm))
+def released(
+    spline: BSpline, loss_per_mm: float, within: Sequence[tuple[float, float]] | None = None
+) -> BSpline:
+    """What becomes of a bent wire that is let go: it loses curvature, all of it where it has no more.
+
+    Everywhere, or `within` these intervals of its parameter.
+    """
+    return recurved(spline, lambda k: -np.clip(k, -loss_per_mm, loss_per_mm), within)
 
 
-def _added(drawn: BSpline, loss_per_mm: float) -> float:
+def _united(lengths: ArcLength, held_mm: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Intervals of the parameter in which a wire is held, none of which overlap."""
+    united: list[tuple[float, float]] = []
+    for start, end in sorted(held_mm):
+        if united and start <= united[-1][1]:
+            united[-1] = (united[-1][0], max(end, united[-1][1]))
+        else:
+            united.append((start, end))
+    ends = lengths.parameter(np.array(united, dtype=float).ravel())
+    return [(float(a), float(b)) for a, b in ends.reshape(-1, 2)]
+
+
+def _added(drawn: BSpline, loss_per_mm: float, within: Sequence[tuple[float, float]] | None) -> float:
     lengths = ArcLength(drawn)
     at_mm = lengths.stations(STEP_MM)
-    curvature = drawn.curvature(lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2))
-    return float((np.minimum(np.abs(curvature) / STRAIGHT, loss_per_mm) * np.diff(at_mm)).sum())
+    u = lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2)
+    held = np.ones(len(u), dtype=bool)
+    if within is not None:
+        held = np.array([any(a < each < b for a, b in within) for each in u])
+    added = np.minimum(np.abs(drawn.curvature(u)) / STRAIGHT, loss_per_mm)
+    return float((added * np.diff(at_mm))[held].sum())
 
 
 def _side_by_side(first: BSpline, second: BSpline) -> tuple[FloatArray, FloatArray]:
@@ -91,15 +107,3 @@ def _side_by_side(first: BSpline, second: BSpline) -> tuple[FloatArray, FloatArr
         for curve, along in zip((first, second), lengths, strict=True)
     ]
     return points[0], points[1]
-
-
-def _finding(bent: Overbent) -> Finding:
-    return Finding(
-        "note",
-        "springback",
-        bent.wire.name,
-        f"its jig bends it {math.degrees(bent.overbend_rad):.0f}° further than drawn, all bends together;"
-        f" there it lies up to {bent.moved_mm:.1f} mm beside the drawing,"
-        f" and let go it springs back to within {bent.residual_mm:.2f} mm of it",
-        "bend it in its own jig, and let go before you lay it beside the others",
-    )

@@ -23,7 +23,7 @@ WIDTH_SHARE = 0.6
 # RESERVE), and between two grooves: narrower webs don't print, so the grooves become one.
 WEB_MM = 0.3
 RESERVE_MM = 0.02
-# Beside a wall the wall shows the way, up to this far beyond what a wire there takes up. Grooves there as well
+# Beside a wall the wall shows the way, up to this far beyond what a wire there takes up. Grooves there too
 # cut the plate's inside into pieces that slicers fill solid: the butterfly prints in 62 instead of 64 min.
 BESIDE_MM = 1.5
 # A shorter piece of groove says nothing: twice as long as it is wide.

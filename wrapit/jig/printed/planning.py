@@ -9,8 +9,8 @@ from wrapit.errors import Finding, JigError
 from wrapit.geometry import Region
 from wrapit.jig.channel import Channels
 from wrapit.jig.findings import form_findings, stray_findings, support_findings, unheld_findings
-from wrapit.jig.grouping import parted
 from wrapit.jig.model import Hold, JigPlan, SameShape, TurnSupport
+from wrapit.jig.parting.grouping import parted
 from wrapit.jig.printed.plan import plan_jig, walls_of
 from wrapit.jig.printed.seats import check_seats, seats_near
 from wrapit.jig.support import really_held

@@ -12,6 +12,7 @@ from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires, handled_in
 from wrapit.jig.model import Jig, JigSet
+from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
 from wrapit.jig.support import held_share
@@ -25,7 +26,8 @@ def plan(wires: Wires, config: Config) -> Callable[[], Made]:
     from wrapit.jig.printed.stage import plan_held
 
     planned, findings = plan_held(wires, config.jig)
-    return functools.partial(_made, planned, findings, wires, config)
+    loose = [finding for jig in planned.jigs for finding in loose_ends(jig.standing, config)]
+    return functools.partial(_made, planned, (*findings, *loose), wires, config)
 
 
 def make(wires: Wires, config: Config) -> Made:

@@ -12,10 +12,10 @@ from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Channels
-from wrapit.jig.grouping import parted
 from wrapit.jig.model import Hold, Hole, Pin, SameShape, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
+from wrapit.jig.parting.grouping import parted
 from wrapit.jig.sheet.checks import LEAST_WEB_MM, check_sheets
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest

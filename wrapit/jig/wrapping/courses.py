@@ -28,15 +28,21 @@ def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:
     The shortest path that goes round the walls the same way as the drawn wire. Its ends are held in their
     holes, those of a wire that closes too; wires don't hinder one another, as they lie in layers.
     """
-    import shapely
-
-    grown = shapely.union_all(shapely.buffer(list(walls), channels.diameter_mm / 2, quad_segs=16))
     places = [_places(wire) for wire in channels.wires]
-    ground = FreeGround.around(grown.simplify(SIMPLER_MM), [points for _, points in places])
+    obstacles = grown(walls, channels.diameter_mm)
+    ground = FreeGround.around(obstacles, [points for _, points in places])
     return tuple(
         _course(wire.name, ground.pulled(points), at_mm, points)
         for wire, (at_mm, points) in zip(channels.wires, places, strict=True)
     )
+
+
+def grown(walls: Iterable[Any], diameter_mm: float) -> Any:
+    """Where the centre of a wire can't be that is laid round these walls (shapely)."""
+    import shapely
+
+    whole = shapely.union_all(shapely.buffer(list(walls), diameter_mm / 2, quad_segs=16))
+    return whole.simplify(SIMPLER_MM)
 
 
 def _course(name: str, taut: FloatArray, at_mm: FloatArray, points: FloatArray) -> Course:

@@ -15,7 +15,7 @@ from wrapit.jig.channel import CHANNEL_PAD_MM, Channels
 from wrapit.jig.findings import free_finding, split_finding
 from wrapit.jig.model import Hold, SameShape
 from wrapit.jig.openings.holes import hole_obstacles, start_holes
-from wrapit.jig.same_shape import same_shapes
+from wrapit.jig.parting.same_shape import same_shapes
 from wrapit.jig.wall_ground import ROUGH_STEP_MM, TOUCH_MM, face_probes
 from wrapit.wires.model import Wire
 
