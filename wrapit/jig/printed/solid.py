@@ -10,7 +10,7 @@ from wrapit.config import JigConfig
 from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.model import JigPlan, Seat
+from wrapit.jig.model import Groove, JigPlan, Label, Seat
 from wrapit.jig.printed.smoothed import ENGRAVED_SLACK_MM, smoothed
 
 if TYPE_CHECKING:
@@ -45,7 +45,10 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
         _wall(region, top, wall.height_mm, config.lead_in)
         for region, wall in zip(walls, plan.walls, strict=True)
     ]
-    for engraved in (*plan.labels, *([plan.groove] if plan.groove is not None else [])):
+    engravings: list[Label | Groove] = [*plan.labels]
+    if plan.groove is not None:
+        engravings.append(plan.groove)
+    for engraved in engravings:
         level = top - engraved.depth_mm
         terraces += [Terrace(stroke, level, slack_mm=ENGRAVED_SLACK_MM) for stroke in engraved.strokes]
     terraces += [_seat(seat, top) for seat in plan.seats]
