@@ -29,9 +29,10 @@ _STROKES: dict[str, list[list[tuple[float, float]]]] = {
     ],
     "9": [[(0.4, 0), (3, 0.6), (3, 5), (0, 5), (0, 2), (2, 2), (2.5, 2.8)]],
 }
+# The box of a digit.
 _BOX = (3.0, 5.0)
-# Plate that stays between two digits, as between grooves: narrower webs don't print. With 4.4 / 3 of a box from
-# one to the next an 8 of 2.5 mm ran into its neighbour.
+# Plate that stays between two digits, as between grooves: narrower webs don't print. With 4.4 of the
+# box's units from one to the next an 8 of 2.5 mm ran into its neighbour.
 _APART_MM = 0.3
 # Into how many lines is each pulled stretch of a stroke divided? They bend by 7° so, far from a corner.
 _LINES = 16
