@@ -12,7 +12,7 @@ from wrapit.geometry.outlines.polygons import CORNER_RAD
 from wrapit.jig.channel import Channels
 from wrapit.jig.contours import arrow_head
 from wrapit.jig.model import Groove
-from wrapit.jig.printed.smoothed import smoothed
+from wrapit.jig.printed.smoothed import ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM, bends_rad, smoothed
 
 # A line that a nozzle of 0.4 mm leaves open, two layers of 0.2 mm deep, as numbers are. Wire lies over it and
 # sinks in by a tenth of its diameter at most, as the groove is no wider than 0.6 of that; one that would be
@@ -38,9 +38,6 @@ BLUNT = 1.45
 # Shorter sides between two corners are left out, as the nozzle rounds them away: the butterfly's grooves have
 # 100 sides with them.
 BEVEL_MM = 0.25
-# How near the groove's sides are to the wire's parallels, and their faces to those: nobody sees either. The
-# butterfly's grooves have 67 sides so, 70 at 0.01 and 0.02.
-FIT_MM, SLACK_MM = 0.02, 0.03
 
 
 def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: float) -> Groove | None:
@@ -65,7 +62,7 @@ def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     if not parts:
         return None
     room = shapely.box(*whole.buffer(1.0).bounds).difference(shapely.union_all([walls, kept_free]))
-    strokes = tuple(smoothed(part, room, FIT_MM, SLACK_MM) for part in parts)
+    strokes = tuple(smoothed(part, room, ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM) for part in parts)
     return Groove(strokes, min(DEPTH_MM, most_depth_mm))
 
 
@@ -73,7 +70,7 @@ def _apart(parts: list[shapely.Polygon]) -> list[shapely.Polygon]:
     """The parts without those that all but touch a larger one: their sides might cross."""
     kept: list[shapely.Polygon] = []
     for part in parts:
-        if all(part.distance(other) > 4 * SLACK_MM for other in kept):
+        if all(part.distance(other) > 4 * ENGRAVED_SLACK_MM for other in kept):
             kept.append(part)
     return kept
 
@@ -88,9 +85,7 @@ def _pointed(polygon: shapely.Polygon) -> shapely.Polygon:
 def _pointed_ring(points: FloatArray) -> FloatArray:
     """One ring (n, 2) of them, not closed."""
     along = np.roll(points, -1, axis=0) - points
-    heading = np.arctan2(along[:, 1], along[:, 0])
-    bend = np.abs((heading - np.roll(heading, 1) + np.pi) % (2 * np.pi) - np.pi)
-    corner = bend > CORNER_RAD
+    corner = bends_rad(points) > CORNER_RAD
     bevel = corner & np.roll(corner, -1) & (np.hypot(*along.T) < BEVEL_MM)
     bevel &= ~np.roll(bevel, 1)  # of two in a row the first
     middles = np.where(bevel[:, None], points + along / 2, points)

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from wrapit.errors import Finding
-from wrapit.geometry.outlines.polygons import region_of
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Label
 from wrapit.jig.printed.digits import number_polygon
+from wrapit.jig.printed.smoothed import ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM, smoothed
 
 # How a number is engraved: as large as there is room for, in a line that a nozzle of 0.4 mm leaves open, two
 # layers of 0.2 mm deep.
@@ -47,9 +47,11 @@ def wire_labels(
         if spot is None:
             missing.append(wire.name)
             continue
-        strokes = tuple(region_of(part) for part in shapely.get_parts(spot))
-        labels.append(Label(str(wire.number), strokes, depth))
         grown = spot.buffer(GAP_MM)
+        strokes = tuple(
+            smoothed(part, grown, ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM) for part in shapely.get_parts(spot)
+        )
+        labels.append(Label(str(wire.number), strokes, depth))
         taken, under = taken.union(grown), under.union(grown)
     findings: list[Finding] = []
     if missing:

@@ -10,16 +10,18 @@ from wrapit.config import JigConfig
 from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.model import JigPlan, Seat
-from wrapit.jig.printed.course_groove import SLACK_MM as COURSE_SLACK_MM
-from wrapit.jig.printed.smoothed import smoothed
+from wrapit.jig.model import Groove, JigPlan, Label, Seat
+from wrapit.jig.printed.smoothed import ENGRAVED_SLACK_MM, smoothed
 
 if TYPE_CHECKING:
     from wrapit.kernel.terraces import Terrace, Terraced
 
+# How near a wall's sides are to its exact outline: a fifth of what its gap may lack (`wall_face`). The
+# butterfly's walls have 151 sides so, 205 at 2.5e-5, 138 at 1e-3.
+WALL_SLACK_MM = 2e-4
 # How near the set-back top of a wall is to its true parallel: no wire touches it, so as near as one sees. Its
-# cubics take the first, its faces the rest: all butterfly's crowns have 96 side faces so, 195 where the
-# cubics take all.
+# cubics take the first, its faces the rest: all butterfly's crowns have 87 side faces so, 95 with
+# coarser arcs (a quarter in 4 chords, whose bends are corners).
 CROWN_TOLERANCE_MM = 0.01
 CROWN_FIT_MM = 0.001
 # Necks narrower than twice this are cut off: the sides of narrower ones might cross.
@@ -43,11 +45,12 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
         _wall(region, top, wall.height_mm, config.lead_in)
         for region, wall in zip(walls, plan.walls, strict=True)
     ]
-    for label in plan.labels:
-        terraces += [Terrace(stroke, top - label.depth_mm) for stroke in label.strokes]
+    engravings: list[Label | Groove] = [*plan.labels]
     if plan.groove is not None:
-        level = top - plan.groove.depth_mm
-        terraces += [Terrace(stroke, level, slack_mm=COURSE_SLACK_MM) for stroke in plan.groove.strokes]
+        engravings.append(plan.groove)
+    for engraved in engravings:
+        level = top - engraved.depth_mm
+        terraces += [Terrace(stroke, level, slack_mm=ENGRAVED_SLACK_MM) for stroke in engraved.strokes]
     terraces += [_seat(seat, top) for seat in plan.seats]
     through = [hole.outline for hole in plan.holes]
     through += [circle(pin.centre, pin.diameter_mm / 2) for pin in plan.pins]
@@ -66,14 +69,14 @@ def _wall(region: Region, ground_mm: float, height_mm: float, lead_in_mm: float)
     crest = ground_mm + height_mm
     if lead_in_mm > 0:
         foot = polygon_of(region, 1e-3)
-        crown = foot.simplify(1e-3).buffer(-lead_in_mm - CROWN_NECK_MM, quad_segs=4)
+        crown = foot.simplify(1e-3).buffer(-lead_in_mm - CROWN_NECK_MM)
         crown = crown.buffer(CROWN_NECK_MM, join_style="mitre")
         crowns = [part for part in shapely.get_parts(crown) if part.area > LEAST_CROWN_MM2]
         if crowns:
             slack = CROWN_TOLERANCE_MM - CROWN_FIT_MM
             upon = tuple(Terrace(_crown(part, foot), crest, slack_mm=slack) for part in crowns)
-            return Terrace(region, crest - lead_in_mm, upon)
-    return Terrace(region, crest)
+            return Terrace(region, crest - lead_in_mm, upon, WALL_SLACK_MM)
+    return Terrace(region, crest, slack_mm=WALL_SLACK_MM)
 
 
 def _seat(seat: Seat, ground_mm: float) -> Terrace:
