@@ -63,5 +63,11 @@ class PlateConfig(Block):
     min_wall_area: Annotated[float, number(0, 1_000)] = 6.0
     """Smaller wall pieces (mm²) can't be handled and are left out."""
 
+    handle: Annotated[float, length("0 mm", "100 mm", "8 mm")] = 8.0
+    """Shorter wall pieces grow at their backs until they are as long, where there is room: for the fingers.
+
+    0 mm leaves them as small as the wire needs them.
+    """
+
     reference_bar: bool = False
     """Engrave a bar of 100 mm on each sheet, to check the scale of the cut."""

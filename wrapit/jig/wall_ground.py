@@ -59,12 +59,15 @@ def wall_polygons(
     ground = _ground(channels, held, config, config.wall_thickness)
     if free is not None:
         core = _ground(channels, held, config, max(CORE_MM, config.min_wall_width))
-        ground = _rounded(ground.difference(free).union(core)).union(core)
+        ground = rounded(ground.difference(free).union(core)).union(core)
     # Notches between neighbouring strips are filled, convex corners stay as they are.
     ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
     ground = ground.simplify(SIMPLER_MM)
     standing = ground.difference(passage(channels, held, config)).difference(obstacles)
-    pieces = sorted(_polygons(_printable(standing, config)), key=lambda part: tuple(np.round(part.bounds, 6)))
+    pieces = sorted(
+        _polygons(printable(standing, config.min_wall_width)),
+        key=lambda part: tuple(np.round(part.bounds, 6)),
+    )
     touched = _held(channels, held, pieces)
     walls = [(piece, mine) for piece, mine in zip(pieces, touched, strict=True) if mine]
     kept = [wall for wall in walls if wall[0].area >= config.min_wall_area]
@@ -78,7 +81,7 @@ def _ground(channels: Channels, held: Sequence[Turn], config: JigConfig, thickne
     return shapely.union_all([wall_ground(channels, span, config, thickness_mm) for span in held])
 
 
-def _rounded(ground: Any) -> Any:
+def rounded(ground: Any) -> Any:
     """The ground without hollows and corners at its back that are narrower than a fingertip is round."""
     return ground.buffer(BACK_MM).buffer(-2 * BACK_MM).buffer(BACK_MM)
 
@@ -111,9 +114,9 @@ def _dropped(small: Sequence[Any], config: JigConfig) -> Finding:
     )
 
 
-def _printable(free: Any, config: JigConfig) -> Any:
+def printable(free: Any, width_mm: float) -> Any:
     """What remains where a disc of the smallest width fits; corners up to a right angle stay sharp."""
-    half = config.min_wall_width / 2
+    half = width_mm / 2
     core = free.buffer(-half, quad_segs=16)
     return core.buffer(half * math.sqrt(2) + 0.005, quad_segs=16).intersection(free)
 

@@ -16,7 +16,8 @@ from wrapit.jig.model import Hold, Hole, Pin, SameShape, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
 from wrapit.jig.parting.grouping import parted
-from wrapit.jig.sheet.checks import LEAST_WEB_MM, check_sheets
+from wrapit.jig.sheet.checks import LEAST_WEB_MM, THIN_WEB_MM, check_sheets
+from wrapit.jig.sheet.handles import FRONT_MM, small_pieces, with_handles
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed, stack_parts
@@ -25,6 +26,7 @@ from wrapit.jig.support import really_held, refuse_unheld, turn_support
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.walls_and_pins import standing_walls
 from wrapit.jig.wrapping.needs import planned_walls
+from wrapit.jig.wrapping.passage import passage
 from wrapit.wires.model import Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate: the narrowest web of most pieces
@@ -86,7 +88,7 @@ def laser_jig(
             name, prefix, plan.wires, plan.walls, holes, jig_config, config, offset_region
         )
         parts += stack
-        findings += faults
+        findings += [*faults, *small_pieces(name, stack, config.handle)]
     sheets, unfit = nest(parts, config)
     checks, faults = check_sheets(parts, sheets, config.kerf)
     copies = max(
@@ -148,7 +150,8 @@ def plan_stack(
     channels = Channels.of(wires, wide)
     holes = start_holes(channels, wide)
     rims = hole_rims(holes)
-    planned = planned_walls(channels, wide, rims.buffer(HOLE_WEB_MM + config.fit, quad_segs=16))
+    clear = rims.buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
+    planned = planned_walls(channels, wide, clear)
     bare = shapely.union_all([polygon for polygon, _ in planned.polygons])
     pins = pin_holes(channels, wide, rims, bare)
     if pins:
@@ -158,9 +161,14 @@ def plan_stack(
     polygons = planned.polygons
     least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * channels.reach_mm - _FACE_MM)
     apart = kept_apart([polygon for polygon, _ in polygons], least_mm)
+    openings = shapely.union_all([rims, *pin_discs(pins)]).buffer(THIN_WEB_MM + config.fit, quad_segs=16)
+    kept = passage(channels, planned.held, wide).union(openings)
+    room = channels.area.buffer(FRONT_MM).union(planned.room or shapely.Polygon())
+    web_mm = THIN_WEB_MM + 2 * config.fit
+    handy = with_handles(apart, kept, room, wide.min_wall_width, config.handle, web_mm)
     faces = tuple(
         wall_face(channels, Wall(turns, polygon, config.wall_sheet))
-        for polygon, (_, turns) in zip(apart, polygons, strict=True)
+        for polygon, (_, turns) in zip(handy, polygons, strict=True)
     )
     walls = tuple(face.region for face in faces)
     held = really_held(turn_support(channels, walls), pins, planned.laid)

@@ -41,11 +41,15 @@ ROUNDS = 60
 
 @dataclass(frozen=True, eq=False)
 class NeededWalls:
-    """Walls with the spans that they hold, what was dropped, and how the wires lie round them."""
+    """Walls with the spans that they hold, what was dropped, and how the wires lie round them.
+
+    `room` is the free ground for fingers (shapely), None where none was asked for.
+    """
 
     polygons: tuple[tuple[Any, tuple[Turn, ...]], ...]
     findings: tuple[Finding, ...]
     held: tuple[Turn, ...]
+    room: Any
     laid: tuple[Course, ...]
 
 
@@ -82,7 +86,7 @@ def _standing(
     free = free_sides(channels, held, config.room) if with_room else None
     polygons, dropped = wall_polygons(channels, config, obstacles, held, free)
     laid = courses(channels, [*(polygon for polygon, _ in polygons), *pins])
-    return NeededWalls(tuple(polygons), dropped, held, laid)
+    return NeededWalls(tuple(polygons), dropped, held, free, laid)
 
 
 def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
