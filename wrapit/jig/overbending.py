@@ -10,6 +10,8 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
@@ -23,6 +25,9 @@ from wrapit.materials import METALS
 from wrapit.wires.model import Wire
 from wrapit.wires.springback import STEP_MM, Overbent, overbend
 
+# Distances from a drawn place to the taut wire agree so far: a hundredth of the tolerance for straying.
+NEAR_MM = 3e-3
+
 
 def overbend_wires(wires: Sequence[Wire], config: Config) -> tuple[tuple[Overbent, ...], tuple[Finding, ...]]:
     """Each wire overbent by what its metal springs back, alone: overbent wires don't meet as drawn."""
@@ -33,14 +38,31 @@ def overbend_wires(wires: Sequence[Wire], config: Config) -> tuple[tuple[Overben
 
 def _overbent(wire: Wire, loss_per_mm: float, config: Config) -> Overbent:
     walls = standing_walls((wire,), config.jig)
-    held = [(turn.start_mm, turn.end_mm) for _, turns in walls.plan.polygons for turn in turns]
-    held += [(pin.turn.start_mm, pin.turn.end_mm) for pin in walls.plan.pins]
-    bent = overbend(wire, loss_per_mm, config.jig, held)
+    bent = overbend(wire, loss_per_mm, config.jig, _held_mm(walls))
     walls = standing_walls((bent.wire,), config.jig)
     (bends,) = bends_round(walls)
     free, drawn = bends.let_go(loss_per_mm), drawn_points(wire)
     apart_mm = best_fit(evenly(free, len(drawn)), evenly(drawn, len(drawn))).apart_mm
     return dataclasses.replace(bent, residual_mm=apart_mm)
+
+
+def _held_mm(walls: StandingWalls) -> list[tuple[float, float]]:
+    """Stretches of a wire, alone in its jig, that lie on a wall or a pin when it is taut."""
+    import shapely
+
+    (course,), (bends,) = walls.plan.laid, bends_round(walls)
+    lying = np.stack([bends.points[:-1], bends.points[1:]], axis=1)[bends.lies_mm > 0]
+    if not len(lying):
+        return []
+    # The taut wire passes each drawn place at `off_mm`: on a wall, if a step that lies on one is as near.
+    apart_mm = shapely.distance(shapely.points(course.drawn), shapely.multilinestrings(lying))
+    near = np.concatenate([[False], apart_mm <= course.off_mm + NEAR_MM, [False]])
+    starts, ends = (np.flatnonzero(np.diff(near.astype(int)) == step) for step in (1, -1))
+    last_mm, half = float(course.at_mm[-1]), float(course.at_mm[1]) / 2
+    return [
+        (max(0.0, float(course.at_mm[a]) - half), min(last_mm, float(course.at_mm[b - 1]) + half))
+        for a, b in zip(starts, ends, strict=True)
+    ]
 
 
 def drawn_points(wire: Wire) -> FloatArray:

@@ -20,6 +20,9 @@ from wrapit.jig.support import min_wall_to_wire_mm
 CLEARANCE_TOLERANCE_MM = 1e-3
 AREA_PER_MM = 6e-3
 SAMPLE_MM = 1e-3
+# Half the width of spikes that a polygon loses before its own sides become a face: the kernel makes no sound
+# solid of them. A tenth of what the note on such walls says.
+SPIKE_MM = 2e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +61,10 @@ def plain_finding(faces: tuple[Face, ...], jig: str) -> tuple[Finding, ...]:
 
 
 def _plain(channels: Channels, wall: Wall) -> Face:
-    region = region_of(wall.outline.simplify(1e-4))
+    import shapely
+
+    outline = wall.outline.simplify(1e-4)
+    opened = outline.buffer(-SPIKE_MM, join_style="mitre").buffer(SPIKE_MM, join_style="mitre")
+    region = region_of(max(shapely.get_parts(opened), key=lambda part: part.area))
     gap, _ = min_wall_to_wire_mm(channels, (region,))
     return Face(region, float(gap or 0.0), exact=False)
