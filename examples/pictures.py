@@ -13,7 +13,7 @@ from wrapit.decomposition.stage import decompose
 from wrapit.drawing.stage import trace
 from wrapit.exports.preview_png import write_preview
 from wrapit.exports.view_png import write_view
-from wrapit.jig.printed.stage import build_jig
+from wrapit.jig.kinds import JIGS
 from wrapit.wires.stage import draw_wires
 
 CONFIGS = Path(__file__).parent.parent / "configs"
@@ -26,13 +26,13 @@ def take(name: str, folder: Path) -> None:
     drawing, _ = trace(CONFIGS / config.drawing, config.tracing, config.size)
     solution, _ = decompose(drawing, config.decomposition)
     wires, _ = draw_wires(solution, config)
-    jigs, _ = build_jig(wires, config.jig)
     write_preview(folder / f"{name}-wires.png", wires)
-    for jig in jigs.jigs:
-        laid = tuple(wire for wire in wires if wire.name in jig.wires)
-        suffix = f"-{jig.name}" if len(jigs.jigs) > 1 else ""
-        write_preview(folder / f"{name}-jig{suffix}.png", laid, jig.walls, jig.plate)
-        write_view(folder / f"{name}-view{suffix}.png", jig, laid)
+    made = JIGS["printed"].make(wires, config)
+    for view in made.views:
+        if view.plate is not None:
+            which = view.stem.removeprefix("preview")
+            write_preview(folder / f"{name}-jig{which}.png", view.wires, view.walls, view.plate)
+            write_view(folder / f"{name}-view{which}.png", view)
 
 
 if __name__ == "__main__":

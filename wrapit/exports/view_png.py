@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from wrapit.errors import ExportError
 from wrapit.geometry import FloatArray, Region
 from wrapit.geometry.arclength import ArcLength
-from wrapit.jig.model import Jig
+from wrapit.jig.made import View
 from wrapit.wires.model import Wire
 
 # Look of the picture: nothing hangs on these but how it is seen. 12 px/mm shows a wire of 1 mm in a dozen
@@ -32,23 +32,24 @@ PAPER, PLATE, WALL = np.array([250, 249, 246.0]), np.array([214, 214, 211.0]), n
 Mask = NDArray[np.bool_]
 
 
-def write_view(path: Path, jig: Jig, wires: Sequence[Wire]) -> None:
-    """Write a PNG of the jig seen at an angle with its wires; the same geometry gives the same bytes.
+def write_view(path: Path, view: View) -> None:
+    """Write a PNG of a jig seen at an angle with its wires; the same geometry gives the same bytes.
 
-    Raises ExportError when the file can't be written.
+    The view has a plate. Raises ExportError when the file can't be written.
     """
     from PIL import Image
 
-    height_mm = _height(jig, wires)
-    picture = _Picture(jig.plate, height_mm)
-    top = jig.plan.plate.thickness_mm
-    picture.raise_region([jig.plate], 0.0, top, PLATE)
+    assert view.plate is not None
+    height_mm = _height(view)
+    picture = _Picture(view.plate, height_mm)
+    top = view.plate_mm
+    picture.raise_region([view.plate], 0.0, top, PLATE)
     for z_mm in np.arange(top, height_mm + SLICE_MM, SLICE_MM):
-        for height in sorted({wall.height_mm for wall in jig.plan.walls}):
-            walls = [w for w, plan in zip(jig.walls, jig.plan.walls, strict=True) if plan.height_mm == height]
+        for height in sorted(set(view.heights_mm)):
+            walls = [wall for wall, own in zip(view.walls, view.heights_mm, strict=True) if own == height]
             if z_mm <= top + height:
                 picture.slice_region(walls, float(z_mm), WALL, top=bool(z_mm + SLICE_MM > top + height))
-        for wire in wires:
+        for wire in view.wires:
             picture.slice_wire(wire, float(z_mm), top)
     image = Image.fromarray(np.clip(picture.pixels, 0, 255).astype(np.uint8))
     small = image.resize((image.width // SUPERSAMPLING, image.height // SUPERSAMPLING), Image.Resampling.BOX)
@@ -60,12 +61,11 @@ def write_view(path: Path, jig: Jig, wires: Sequence[Wire]) -> None:
         ) from error
 
 
-def _height(jig: Jig, wires: Sequence[Wire]) -> float:
-    walls = max((wall.height_mm for wall in jig.plan.walls), default=0.0)
+def _height(view: View) -> float:
     laid = max(
-        (wire.diameter_mm + max((z for _, z in wire.lifts), default=0.0) for wire in wires), default=0.0
+        (wire.diameter_mm + max((z for _, z in wire.lifts), default=0.0) for wire in view.wires), default=0.0
     )
-    return jig.plan.plate.thickness_mm + max(walls, laid)
+    return view.plate_mm + max(*view.heights_mm, 0.0, laid)
 
 
 class _Picture:

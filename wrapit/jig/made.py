@@ -20,7 +20,8 @@ Wires = tuple[Wire, ...]
 class View:
     """A jig from above with wires laid in; without a plate it is the wires alone. `stem` names the file.
 
-    `taut` are the courses (m, 2) of wires that stray visibly when they are laid under tension.
+    `taut` are the courses (m, 2) of wires that stray visibly when they are laid under tension; `heights_mm`
+    are those of the walls over the plate, which is `plate_mm` thick.
     """
 
     stem: str
@@ -28,6 +29,8 @@ class View:
     walls: tuple[Region, ...] = ()
     plate: Region | None = None
     taut: tuple[FloatArray, ...] = ()
+    heights_mm: tuple[float, ...] = ()
+    plate_mm: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -14,15 +14,19 @@ from wrapit.wires.model import JumpRing, Wire
 
 
 def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
-    """`preview{suffix}.png`: a jig with the wires laid in; the piece and each jig where one isn't all.
+    """`preview{suffix}.png`, `view{suffix}.png`: a jig with its wires from above and at an angle.
 
-    `wires` are as they are in the piece; in the jig they may be overbent.
+    Where one jig isn't all, each has its own beside the piece's preview. `wires` are as they are in the
+    piece; in the jig they may be overbent.
     """
     from wrapit.exports.preview_png import write_preview
+    from wrapit.exports.view_png import write_view
 
     for view in made.views:
         laid = wires if view.plate is None else view.wires
         write_preview(folder / f"{view.stem}{suffix}.png", laid, view.walls, view.plate, view.taut)
+        if view.plate is not None and view.plate_mm > 0:
+            write_view(folder / f"{view.stem.replace('preview', 'view', 1)}{suffix}.png", view)
 
 
 def write_drawings(folder: Path, made: Made, config: Config) -> None:

@@ -67,17 +67,16 @@ def handling(jigs: JigSet) -> Handling:
 
 def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
     """One view where one jig holds all wires; else the piece, and each jig with its own."""
-    first = jigs.jigs[0]
-    if len(first.wires) == len(wires):
-        return (View("preview", wires, first.walls, first.plate, _straying(first)),)
+    if len(jigs.jigs[0].wires) == len(wires):
+        return (_view("preview", wires, jigs.jigs[0]),)
     mine = [tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigs.jigs]
-    return (
-        View("preview", wires),
-        *(
-            View(f"preview-{jig.name}", held, jig.walls, jig.plate, _straying(jig))
-            for jig, held in zip(jigs.jigs, mine, strict=True)
-        ),
-    )
+    each = [_view(f"preview-{jig.name}", laid, jig) for jig, laid in zip(jigs.jigs, mine, strict=True)]
+    return (View("preview", wires), *each)
+
+
+def _view(stem: str, wires: Wires, jig: Jig) -> View:
+    heights = tuple(wall.height_mm for wall in jig.plan.walls)
+    return View(stem, wires, jig.walls, jig.plate, _straying(jig), heights, jig.plan.plate.thickness_mm)
 
 
 def _straying(jig: Jig) -> tuple[FloatArray, ...]:

@@ -67,8 +67,17 @@ def _views(laser: LaserJig, wires: Wires) -> tuple[View, ...]:
     for name, mine in laser.laid.items():
         parts = [part for part in laser.parts if part.jig == name]
         walls = tuple(part.shape for part in parts if part.role == "wall")
-        plate = next(part.shape for part in parts if part.role == "bottom")
-        views.append(View("preview" if len(laser.laid) == 1 else f"preview-{name}", mine, walls, plate))
+        bottom, pockets = (next(part for part in parts if part.role == role) for role in ("bottom", "pocket"))
+        views.append(
+            View(
+                "preview" if len(laser.laid) == 1 else f"preview-{name}",
+                mine,
+                walls,
+                bottom.shape,
+                heights_mm=(laser.wall_height_mm,) * len(walls),
+                plate_mm=bottom.thickness_mm + pockets.thickness_mm,
+            )
+        )
     return tuple(views)
 
 
