@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.errors import ExportError
-from wrapit.geometry import FloatArray, Region
+from wrapit.geometry import FloatArray, IntArray, Region
 from wrapit.geometry.arclength import ArcLength
 from wrapit.jig.made import View
 from wrapit.wires.model import Wire
@@ -51,7 +51,7 @@ def write_view(path: Path, view: View) -> None:
                 picture.slice_region(walls, float(z_mm), WALL, top=bool(z_mm + SLICE_MM > top + height))
         for wire in view.wires:
             picture.slice_wire(wire, float(z_mm), top)
-    image = Image.fromarray(np.clip(picture.pixels, 0, 255).astype(np.uint8))
+    image = Image.fromarray(picture.pixels)
     small = image.resize((image.width // SUPERSAMPLING, image.height // SUPERSAMPLING), Image.Resampling.BOX)
     try:
         small.save(path, format="PNG", compress_level=9)
@@ -78,7 +78,7 @@ class _Picture:
         self._origin = np.array([low[0], high[1] + height_mm * math.cos(TILT_RAD)])
         extent = np.array([high[0] - low[0], self._origin[1] - low[1]])
         width, height = (math.ceil(side * PX_PER_MM) * SUPERSAMPLING for side in extent)
-        self.pixels: FloatArray = np.tile(PAPER, (height, width, 1))
+        self.pixels = np.tile(PAPER.astype(np.uint8), (height, width, 1))
         self._stencils: dict[int, _Stencil] = {}
         self._courses: dict[str, _Course] = {}
 
@@ -103,7 +103,8 @@ class _Picture:
                 canvas.polygon(self._px(region.outer.sampled(0.01)), fill=1)
                 for hole in region.holes:
                     canvas.polygon(self._px(hole.sampled(0.01)), fill=0)
-            self._stencils[key] = _Stencil.of(np.asarray(image))
+            step = math.ceil(SLICE_MM * math.cos(TILT_RAD) * self._scale)
+            self._stencils[key] = _Stencil.of(np.asarray(image), step)
         return self._stencils[key]
 
     def _course(self, wire: Wire) -> _Course:
@@ -129,8 +130,10 @@ class _Picture:
         row = stencil.row - round(z_mm * math.cos(TILT_RAD) * self._scale)
         height, width = stencil.mask.shape
         under = self.pixels[row : row + height, stencil.column : stencil.column + width]
-        under[stencil.mask] = colour if top else 0.80 * colour
-        if not top:
+        if top:
+            under[stencil.mask] = colour
+        else:
+            under[stencil.side] = 0.80 * colour
             under[stencil.right] = 0.66 * colour
 
     def slice_wire(self, wire: Wire, z_mm: float, plate_mm: float) -> None:
@@ -157,25 +160,33 @@ class _Picture:
         base = np.array([int(wire.colour[i : i + 2], 16) for i in (1, 3, 5)], dtype=float)
         level_px = (mask[painted][:, None] - 1) / 254
         shade = base * (0.45 + 0.55 * level_px) + 90 * np.maximum(level_px - 0.75, 0) * 4
-        self.pixels[upper:lower, left:right][painted] = shade
+        self.pixels[upper:lower, left:right][painted] = np.minimum(shade, 255)
 
 
 @dataclass(frozen=True, eq=False)
 class _Stencil:
-    """The pixels of a flat shape, cropped; `right` are those near its right rim."""
+    """The pixels of a flat shape, cropped.
+
+    `side` are rows and columns of those that the next slice, which lies higher, leaves to be seen; `right` of
+    those among them near the shape's right rim.
+    """
 
     row: int
     column: int
     mask: Mask
-    right: Mask
+    side: tuple[IntArray, ...]
+    right: tuple[IntArray, ...]
 
     @classmethod
-    def of(cls, whole: Mask) -> _Stencil:
+    def of(cls, whole: Mask, step: int) -> _Stencil:
+        """`step` is how many rows the next slice lies higher at most."""
         rows, columns = np.flatnonzero(whole.any(axis=1)), np.flatnonzero(whole.any(axis=0))
         mask = whole[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-        right = mask.copy()
+        side = mask.copy()
+        side[:-step] &= ~mask[step:]
+        right = side.copy()
         right[:, :-3] &= ~mask[:, 3:]
-        return cls(int(rows[0]), int(columns[0]), mask, right)
+        return cls(int(rows[0]), int(columns[0]), mask, np.nonzero(side), np.nonzero(right))
 
 
 @dataclass(frozen=True, eq=False)

@@ -67,7 +67,9 @@ def _views(laser: LaserJig, wires: Wires) -> tuple[View, ...]:
     for name, mine in laser.laid.items():
         parts = [part for part in laser.parts if part.jig == name]
         walls = tuple(part.shape for part in parts if part.role == "wall")
-        bottom, pockets = (next(part for part in parts if part.role == role) for role in ("bottom", "pocket"))
+        bottom, pockets = (
+            next(part for part in parts if part.role == role) for role in ("bottom", "pocket plate")
+        )
         views.append(
             View(
                 "preview" if len(laser.laid) == 1 else f"preview-{name}",

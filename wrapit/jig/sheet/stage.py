@@ -12,6 +12,7 @@ from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Channels
+from wrapit.jig.findings import form_findings
 from wrapit.jig.model import Hold, Hole, Pin, SameShape, TurnSupport, Wall
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
@@ -65,7 +66,7 @@ def plan_stacks(
         raise JigError("there are no wires to make a jig for")
     parting = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
     plans: dict[str, LaserPlan] = {}
-    findings: list[Finding] = []
+    findings = [*parting.findings, *form_findings(parting.forms)]
     for group in parting.jigs:
         plans[group.name], more = plan_stack(group.wires, jig_config, config)
         findings += more
