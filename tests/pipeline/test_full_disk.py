@@ -75,7 +75,7 @@ def on_disk(tmp_path: Path) -> Callable[..., Run]:
     return run
 
 
-@pytest.mark.parametrize("kilobytes", [8, 100, 240, 400, 560])
+@pytest.mark.parametrize("kilobytes", [8, 100, 240, 400, 480])
 def test_a_full_disk_is_one_line_and_leaves_nothing(
     tmp_path: Path, on_disk: Callable[..., Run], kilobytes: int
 ) -> None:
