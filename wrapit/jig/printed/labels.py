@@ -20,10 +20,9 @@ DEPTH_MM = 0.4
 # Plate that stays between a number and whatever else there is, and around all at the plate's edge.
 GAP_MM = 0.4
 EDGE_MM = 1.0
-# Where places are tried: on rings around the start, up to 17 mm off; nearer ones first. With rings up to 13 mm
-# one of the mandala's sixteen numbers finds no room.
-# With rings up to 9 mm two of the lotus's five numbers find no room; all other changes of these by 30 %, and
-# of GAP, leave all numbers of butterfly, dolphin, leaf and lotus on their plates.
+# Where places are tried: on rings round the start, nearer ones first, up to 17 mm off. With rings up to 13 mm
+# one of the mandala's sixteen numbers finds no room, up to 9 mm two of the lotus's five; all other changes of
+# these by 30 %, and of GAP, leave all numbers of butterfly, dolphin, leaf and lotus on their plates.
 RING_STEP_MM = 1.0
 RINGS = 18
 DIRECTIONS = 16
