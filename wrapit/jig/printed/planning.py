@@ -16,7 +16,7 @@ from wrapit.jig.printed.seats import check_seats, seats_near
 from wrapit.jig.support import really_held
 from wrapit.jig.wall_face import Face, plain_finding
 from wrapit.jig.walls_and_pins import StandingWalls
-from wrapit.jig.wrapping.hemmed import hemmed_share
+from wrapit.jig.wrapping.hemmed import hemmed_findings, hemmed_share
 from wrapit.wires.model import Wire
 
 
@@ -90,6 +90,7 @@ def plan_jigs(wires: tuple[Wire, ...], config: JigConfig) -> tuple[PlannedJigs, 
         laid = jig.plan.laid
         findings += [*jig.findings, *plain_finding(jig.faces, jig.plan.name), *stray_findings(laid)]
         findings += [*support_findings(jig.channels, jig.plan.pins, jig.support, laid, config)]
+        findings += hemmed_findings(jig.channels, [wall.outline for wall in jig.plan.walls])
         findings += unheld_findings(jig.held, config)
     return PlannedJigs(parting.jigs, parting.forms), tuple(findings)
 

@@ -6,30 +6,69 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from wrapit.errors import Finding
+from wrapit.geometry import FloatArray
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
 
 # So near to the wire's surface a wall hems it in.
 BESIDE_MM = 0.75
 STEP_MM = 0.2
+# Over so much of a wire the walls at a crossing stand on both sides: the butterfly's up to 3 mm.
+CROSSING_MM = 4.0
+
+Mask = NDArray[np.bool_]
 
 
 def hemmed_share(channels: Channels, walls: Iterable[Any]) -> float:
     """The share of the wires' length that has a wall (shapely polygon) close by on both sides."""
+    return float(np.concatenate([hemmed for _, hemmed in _places(channels, walls)]).mean())
+
+
+def hemmed_findings(channels: Channels, walls: Iterable[Any]) -> tuple[Finding, ...]:
+    """A note for each wire that walls (shapely polygons) hem in over more than a crossing, at the longest."""
+    findings = []
+    for wire, (at_mm, hemmed) in zip(channels.wires, _places(channels, walls), strict=True):
+        runs = [run for run in _runs(at_mm, hemmed) if run[1] - run[0] > CROSSING_MM]
+        if not runs:
+            continue
+        start, end = max(runs, key=lambda run: run[1] - run[0])
+        places = f", and at {len(runs) - 1} more places" if len(runs) > 1 else ""
+        findings.append(
+            Finding(
+                "note",
+                "hemmed",
+                f"{wire.name} at {(start + end) / 2:.0f} mm",
+                f"walls stand on both sides over {end - start:.0f} mm{places}: each holds a wire there",
+                "press the wire in with a rounded stick there",
+                severity=end - start,
+            )
+        )
+    return tuple(findings)
+
+
+def _places(channels: Channels, walls: Iterable[Any]) -> list[tuple[FloatArray, Mask]]:
+    """For each wire places along it (n,), mm, and whether it is hemmed in there (n,)."""
     import shapely
 
     standing = shapely.union_all(list(walls))
     shapely.prepare(standing)
     radius_mm = channels.diameter_mm / 2
-    hemmed, stations = 0, 0
+    places = []
     for wire in channels.wires:
         whole = Turn(wire.name, 0.0, wire.length_mm, "left", 0.0)
-        _, points, normals, _ = channels.stations(whole, STEP_MM)
-        beside = np.ones(len(points), dtype=bool)
+        at_mm, points, normals, _ = channels.stations(whole, STEP_MM)
+        hemmed = np.ones(len(points), dtype=bool)
         for side in SIDES.values():
             ends = (points + side * radius_mm * normals, points + side * (radius_mm + BESIDE_MM) * normals)
-            beside &= shapely.intersects(standing, shapely.linestrings(np.stack(ends, axis=1)))
-        hemmed += int(beside.sum())
-        stations += len(points)
-    return hemmed / stations
+            hemmed &= shapely.intersects(standing, shapely.linestrings(np.stack(ends, axis=1)))
+        places.append((at_mm, hemmed))
+    return places
+
+
+def _runs(at_mm: FloatArray, hemmed: Mask) -> list[tuple[float, float]]:
+    padded = np.concatenate([[False], hemmed, [False]]).astype(int)
+    starts, ends = (np.flatnonzero(np.diff(padded) == step) for step in (1, -1))
+    return [(float(at_mm[a]), float(at_mm[b - 1])) for a, b in zip(starts, ends, strict=True)]
