@@ -22,3 +22,14 @@ def unit(vector: FloatArray) -> FloatArray:
     """The vector at length one (zero stays zero); works on (2,) and (n, 2)."""
     norm = np.linalg.norm(vector, axis=-1, keepdims=True)
     return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=norm > 0)
+
+
+def runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last place of each run of what is true (n,).
+
+    >>> runs(np.array([True, False, True, True]))
+    [(0, 0), (2, 3)]
+    """
+    change = np.diff(np.concatenate([[False], mask, [False]]).astype(int))
+    ends = zip(np.flatnonzero(change == 1), np.flatnonzero(change == -1) - 1, strict=True)
+    return [(int(first), int(last)) for first, last in ends]

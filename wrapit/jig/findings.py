@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import numpy as np
-
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
+from wrapit.geometry.arrays import runs
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import SEEN_MM, Course, Hold, Pin, SameShape, TurnSupport
 from wrapit.jig.support import kept, support_by_wire
@@ -126,10 +125,8 @@ def stray_findings(laid: Iterable[Course]) -> tuple[Finding, ...]:
     """A warning for each place where a wire laid under tension lies visibly off the drawing."""
     findings = []
     for course in laid:
-        off = np.concatenate([[False], course.off_mm > SEEN_MM, [False]])
-        starts, ends = (np.flatnonzero(np.diff(off.astype(int)) == step) for step in (1, -1))
-        for a, b in zip(starts, ends, strict=True):
-            worst = int(a + course.off_mm[a:b].argmax())
+        for first, last in runs(course.off_mm > SEEN_MM):
+            worst = first + int(course.off_mm[first : last + 1].argmax())
             findings.append(
                 Finding(
                     "warning",

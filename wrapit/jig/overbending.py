@@ -14,8 +14,7 @@ import numpy as np
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.geometry import FloatArray
-from wrapit.geometry.arclength import ArcLength
+from wrapit.geometry.arrays import runs
 from wrapit.geometry.polyline import evenly
 from wrapit.geometry.recurving import best_fit
 from wrapit.jig.openings.pins import pin_discs
@@ -23,7 +22,7 @@ from wrapit.jig.walls_and_pins import StandingWalls, standing_walls
 from wrapit.jig.wrapping.let_go import Bends
 from wrapit.materials import METALS
 from wrapit.wires.model import Wire
-from wrapit.wires.springback import STEP_MM, Overbent, overbend
+from wrapit.wires.springback import Overbent, overbend
 
 # Distances from a drawn place to the taut wire agree so far: a hundredth of the tolerance for straying.
 NEAR_MM = 3e-3
@@ -39,9 +38,8 @@ def overbend_wires(wires: Sequence[Wire], config: Config) -> tuple[tuple[Overben
 def _overbent(wire: Wire, loss_per_mm: float, config: Config) -> Overbent:
     walls = standing_walls((wire,), config.jig)
     bent = overbend(wire, loss_per_mm, config.jig, _held_mm(walls))
-    walls = standing_walls((bent.wire,), config.jig)
-    (bends,) = bends_round(walls)
-    free, drawn = bends.let_go(loss_per_mm), drawn_points(wire)
+    (bends,) = bends_round(standing_walls((bent.wire,), config.jig))
+    free, drawn = bends.let_go(loss_per_mm), walls.plan.laid[0].drawn
     apart_mm = best_fit(evenly(free, len(drawn)), evenly(drawn, len(drawn))).apart_mm
     return dataclasses.replace(bent, residual_mm=apart_mm)
 
@@ -56,19 +54,11 @@ def _held_mm(walls: StandingWalls) -> list[tuple[float, float]]:
         return []
     # The taut wire passes each drawn place at `off_mm`: on a wall, if a step that lies on one is as near.
     apart_mm = shapely.distance(shapely.points(course.drawn), shapely.multilinestrings(lying))
-    near = np.concatenate([[False], apart_mm <= course.off_mm + NEAR_MM, [False]])
-    starts, ends = (np.flatnonzero(np.diff(near.astype(int)) == step) for step in (1, -1))
     last_mm, half = float(course.at_mm[-1]), float(course.at_mm[1]) / 2
     return [
-        (max(0.0, float(course.at_mm[a]) - half), min(last_mm, float(course.at_mm[b - 1]) + half))
-        for a, b in zip(starts, ends, strict=True)
+        (max(0.0, float(course.at_mm[a]) - half), min(last_mm, float(course.at_mm[b]) + half))
+        for a, b in runs(apart_mm <= course.off_mm + NEAR_MM)
     ]
-
-
-def drawn_points(wire: Wire) -> FloatArray:
-    """Points (n, 2) along a wire, every STEP_MM."""
-    along = ArcLength(wire.centreline)
-    return wire.centreline.at(along.parameter(along.stations(STEP_MM)))
 
 
 def bends_round(walls: StandingWalls) -> tuple[Bends, ...]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from wrapit.errors import KernelError
 from wrapit.geometry import Loop, Region
-from wrapit.geometry.outlines.polygons import loop_area_mm2, region_area_mm2
+from wrapit.geometry.outlines.polygons import loop_area_mm2, polygon_of, region_area_mm2
 from wrapit.kernel.edges import (
     Followed,
     edges_of,
@@ -65,10 +65,18 @@ class _Raised:
 
     @property
     def area_mm2(self) -> float:
-        """What its sides should enclose: the outline, or where they may leave it their curves' own area."""
-        if self.terrace.slack_mm <= RUN_TOLERANCE_MM:
-            return region_area_mm2(self.terrace.region)
-        return sum(loop.area_mm2 for loop in self.loops)
+        """What its sides should enclose: the outline, or where they may leave it their curves' own area.
+
+        Curves that enclose more or less than they may don't count: then the proof fails.
+        """
+        region, slack_mm = self.terrace.region, self.terrace.slack_mm
+        outlined, followed = region_area_mm2(region), sum(loop.area_mm2 for loop in self.loops)
+        if (
+            slack_mm <= RUN_TOLERANCE_MM
+            or abs(followed - outlined) > slack_mm * polygon_of(region, 0.01).length
+        ):
+            return outlined
+        return followed
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from wrapit.geometry import BezierChain, FloatArray, Loop
 from wrapit.geometry.polyline import lengths
 
 # Half the width of the narrowest bay that stays: narrower ones have sides and no use. The plates of the seven
-# configs have 57 to 74 % of their boxes' area so.
+# configs have 55 to 73 % of their boxes' area so.
 BAY_MM = 6.0
 # A plate that is asked to have less margin gets this: two lines of a nozzle of 0.4 mm and some to spare, so
 # that walls never end on its edge.

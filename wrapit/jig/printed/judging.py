@@ -17,7 +17,7 @@ from wrapit.wires.model import Wire
 # to 1e-4 mm³ over three wires, as heights are right to 0.004 mm.
 _OVER_PLATE_MM = 0.01
 # By how much is a channel narrower than the wire with its clearance on both sides, in mm? Walls are right to
-# 5e-5.
+# 2.5e-4.
 _WITHIN_MM = 1e-3
 # What is nothing, in mm³? A cube with a side of a hundredth of a mm.
 NOTHING_MM3 = 1e-6

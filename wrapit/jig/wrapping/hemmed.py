@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
+from wrapit.geometry.arrays import runs
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
 
 # So near to the wire's surface a wall hems it in.
 BESIDE_MM = 0.75
 STEP_MM = 0.2
-# Over so much of a wire the walls at a crossing stand on both sides: the butterfly's up to 3 mm.
+# Over so much of a wire the walls at a crossing may stand on both sides. In our seven pieces all runs are of
+# 4.0 mm or less but two of 4.6 mm in the bee, which are told.
 CROSSING_MM = 4.0
 
 Mask = NDArray[np.bool_]
@@ -31,11 +33,12 @@ def hemmed_findings(channels: Channels, walls: Iterable[Any]) -> tuple[Finding, 
     """A note for each wire that walls (shapely polygons) hem in over more than a crossing, at the longest."""
     findings = []
     for wire, (at_mm, hemmed) in zip(channels.wires, _places(channels, walls), strict=True):
-        runs = [run for run in _runs(at_mm, hemmed) if run[1] - run[0] > CROSSING_MM]
-        if not runs:
+        spans = [(float(at_mm[first]), float(at_mm[last])) for first, last in runs(hemmed)]
+        long = [(start, end) for start, end in spans if end - start > CROSSING_MM]
+        if not long:
             continue
-        start, end = max(runs, key=lambda run: run[1] - run[0])
-        places = f", and at {len(runs) - 1} more places" if len(runs) > 1 else ""
+        start, end = max(long, key=lambda span: span[1] - span[0])
+        places = f", and at {len(long) - 1} more places" if len(long) > 1 else ""
         findings.append(
             Finding(
                 "note",
@@ -66,9 +69,3 @@ def _places(channels: Channels, walls: Iterable[Any]) -> list[tuple[FloatArray, 
             hemmed &= shapely.intersects(standing, shapely.linestrings(np.stack(ends, axis=1)))
         places.append((at_mm, hemmed))
     return places
-
-
-def _runs(at_mm: FloatArray, hemmed: Mask) -> list[tuple[float, float]]:
-    padded = np.concatenate([[False], hemmed, [False]]).astype(int)
-    starts, ends = (np.flatnonzero(np.diff(padded) == step) for step in (1, -1))
-    return [(float(at_mm[a]), float(at_mm[b - 1])) for a, b in zip(starts, ends, strict=True)]

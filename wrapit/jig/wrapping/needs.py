@@ -15,6 +15,7 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding
+from wrapit.geometry.arrays import runs
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course
 from wrapit.jig.wall_ground import wall_polygons
@@ -94,11 +95,10 @@ def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator
 
     A place that has a wall already gets the next longer one, and at last none.
     """
-    strays = np.concatenate([[False], course.off_mm > tolerance_mm, [False]])
-    starts, ends = (np.flatnonzero(np.diff(strays.astype(int)) == step) for step in (1, -1))
-    for a, b in zip(starts, ends, strict=True):
+    for first, last in runs(course.off_mm > tolerance_mm):
         chosen: list[float] = []
-        for furthest in a + np.argsort(-np.round(course.off_mm[a:b] / ALIKE_MM), kind="stable"):
+        off_mm = course.off_mm[first : last + 1]
+        for furthest in first + np.argsort(-np.round(off_mm / ALIKE_MM), kind="stable"):
             if chosen and course.off_mm[furthest] <= FAR_MM:
                 break
             at_mm = _middle(course, int(furthest))
