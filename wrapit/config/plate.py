@@ -64,9 +64,10 @@ class PlateConfig(Block):
     """Smaller wall pieces (mm²) can't be handled and are left out."""
 
     handle: Annotated[float, length("0 mm", "100 mm", "8 mm")] = 8.0
-    """Shorter wall pieces grow at their backs until they are as long, where there is room: for the fingers.
+    """Walls are joined to few pieces, and shorter ones grow at their backs until they are as long: for the
+    fingers, where there is room.
 
-    0 mm leaves them as small as the wire needs them.
+    0 mm leaves all walls as small as the wire needs them.
     """
 
     reference_bar: bool = False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -145,6 +146,11 @@ class Course:
     def share_off(self) -> float:
         """Share of the wire that lies more than SEEN_MM off."""
         return float((self.off_mm > SEEN_MM).mean())
+
+
+def straying(laid: Iterable[Course]) -> tuple[FloatArray, ...]:
+    """The courses (m, 2) of wires that lie visibly off somewhere."""
+    return tuple(course.taut for course in laid if course.share_off > 0)
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from wrapit.errors import Finding
 from wrapit.geometry import Region
@@ -20,8 +21,8 @@ from wrapit.jig.support import min_wall_to_wire_mm
 CLEARANCE_TOLERANCE_MM = 1e-3
 AREA_PER_MM = 6e-3
 SAMPLE_MM = 1e-3
-# Half the width of spikes that a polygon loses before its own sides become a face: the kernel makes no sound
-# solid of them. A tenth of what the note on such walls says.
+# Half the width of slits and spikes that a polygon loses before it becomes a face: their sides would cross as
+# curves, and of lines the kernel makes no sound solid. A tenth of what the note on such walls says.
 SPIKE_MM = 2e-4
 
 
@@ -37,7 +38,7 @@ class Face:
 def wall_face(channels: Channels, wall: Wall) -> Face:
     """The exact face; where it fails its check, the polygon, whose sides are within 1e-3 mm of it."""
     try:
-        region = channels.outliner.region(wall.outline)
+        region = channels.outliner.region(_without_spikes(wall.outline))
         sampled = polygon_of(region, SAMPLE_MM)  # ValueError where a loop has shrunk to less than a triangle
     except (ValueError, IndexError, ArithmeticError):  # no outline could be put together
         return _plain(channels, wall)
@@ -61,10 +62,15 @@ def plain_finding(faces: tuple[Face, ...], jig: str) -> tuple[Finding, ...]:
 
 
 def _plain(channels: Channels, wall: Wall) -> Face:
-    import shapely
-
-    outline = wall.outline.simplify(1e-4)
-    opened = outline.buffer(-SPIKE_MM, join_style="mitre").buffer(SPIKE_MM, join_style="mitre")
-    region = region_of(max(shapely.get_parts(opened), key=lambda part: part.area))
+    region = region_of(_without_spikes(wall.outline.simplify(1e-4)))
     gap, _ = min_wall_to_wire_mm(channels, (region,))
     return Face(region, float(gap or 0.0), exact=False)
+
+
+def _without_spikes(outline: Any) -> Any:
+    """The polygon without slits and spikes, whose two sides would cross as curves."""
+    import shapely
+
+    for grown_mm in (SPIKE_MM, -2 * SPIKE_MM, SPIKE_MM):
+        outline = outline.buffer(grown_mm, join_style="mitre")
+    return max(shapely.get_parts(outline), key=lambda part: part.area)

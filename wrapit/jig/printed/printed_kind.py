@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.geometry import FloatArray
 from wrapit.jig.made import Handling, JigMaker, Made, View, Wires, handled_in
-from wrapit.jig.model import Jig, JigSet
+from wrapit.jig.model import Jig, JigSet, straying
 from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
@@ -76,11 +75,9 @@ def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
 
 def _view(stem: str, wires: Wires, jig: Jig) -> View:
     heights = tuple(wall.height_mm for wall in jig.plan.walls)
-    return View(stem, wires, jig.walls, jig.plate, _straying(jig), heights, jig.plan.plate.thickness_mm)
-
-
-def _straying(jig: Jig) -> tuple[FloatArray, ...]:
-    return tuple(course.taut for course in jig.plan.laid if course.share_off > 0)
+    return View(
+        stem, wires, jig.walls, jig.plate, straying(jig.plan.laid), heights, jig.plan.plate.thickness_mm
+    )
 
 
 # The kind, as `jig.kinds` lists it.

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from wrapit.geometry import Region
+from wrapit.geometry import FloatArray, Region
 from wrapit.jig.contours import Contour
 from wrapit.jig.model import Pin, SameShape
 from wrapit.wires.model import Wire
@@ -81,11 +81,13 @@ class LaserJig:
     """All parts, their sheets, and the measurements; `wall_height_mm` is what stands above the plate.
 
     `pins` are nails or rods that stand in holes where a turn is too tight for a wall. `laid` are the wires
-    that each jig is for, by its name, as they lie in it; `forms` are wires that have the shape of one.
+    that each jig is for, by its name, as they lie in it, `taut` the courses (m, 2) of those that stray there
+    visibly; `forms` are wires that have the shape of one.
     """
 
     parts: tuple[LaserPart, ...]
     laid: Mapping[str, tuple[Wire, ...]]
+    taut: Mapping[str, tuple[FloatArray, ...]]
     forms: tuple[SameShape, ...]
     sheets: tuple[LaserSheet, ...]
     kerf_mm: float

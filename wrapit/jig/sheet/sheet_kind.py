@@ -76,6 +76,7 @@ def _views(laser: LaserJig, wires: Wires) -> tuple[View, ...]:
                 mine,
                 walls,
                 bottom.shape,
+                laser.taut[name],
                 heights_mm=(laser.wall_height_mm,) * len(walls),
                 plate_mm=bottom.thickness_mm + pockets.thickness_mm,
             )

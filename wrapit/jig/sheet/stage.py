@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,13 +13,13 @@ from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Channels
-from wrapit.jig.findings import form_findings
-from wrapit.jig.model import Hold, Hole, Pin, SameShape, TurnSupport, Wall
+from wrapit.jig.findings import form_findings, stray_findings
+from wrapit.jig.model import Course, Hold, Hole, Pin, SameShape, TurnSupport, Wall, straying
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
 from wrapit.jig.parting.grouping import parted
 from wrapit.jig.sheet.checks import LEAST_WEB_MM, THIN_WEB_MM, check_sheets
-from wrapit.jig.sheet.handles import FRONT_MM, small_pieces, with_handles
+from wrapit.jig.sheet.handles import FRONT_MM, joined, small_pieces, with_handles
 from wrapit.jig.sheet.model import LaserJig, LaserPart
 from wrapit.jig.sheet.nesting import nest
 from wrapit.jig.sheet.parts import copies_needed, stack_parts
@@ -26,6 +27,7 @@ from wrapit.jig.sheet.shops import check_shop
 from wrapit.jig.support import really_held, refuse_unheld, turn_support
 from wrapit.jig.wall_face import plain_finding, wall_face
 from wrapit.jig.walls_and_pins import standing_walls
+from wrapit.jig.wrapping.hemmed import hemmed_findings
 from wrapit.jig.wrapping.needs import planned_walls
 from wrapit.jig.wrapping.passage import passage
 from wrapit.wires.model import Wire
@@ -98,6 +100,7 @@ def laser_jig(
     jig_model = LaserJig(
         parts=tuple(parts),
         laid={name: plan.wires for name, plan in plans.items()},
+        taut={name: straying(plan.laid) for name, plan in plans.items()},
         forms=forms,
         sheets=sheets,
         kerf_mm=config.kerf,
@@ -126,7 +129,7 @@ class _Grouped:
 class LaserPlan:
     """What one stack is made of: exact wall faces, start holes, pins in turns too tight for a wall.
 
-    `held` is the support of each turn, pins counted.
+    `held` is the support of each turn, pins counted; `laid` is how the wires lie in it under tension.
     """
 
     wires: tuple[Wire, ...]
@@ -134,6 +137,7 @@ class LaserPlan:
     holes: tuple[Hole, ...]
     pins: tuple[Pin, ...]
     held: tuple[TurnSupport, ...]
+    laid: tuple[Course, ...]
 
 
 def plan_stack(
@@ -159,23 +163,27 @@ def plan_stack(
         discs = pin_discs(pins)
         clear = shapely.union_all([rims, *discs]).buffer(HOLE_WEB_MM + config.fit, quad_segs=16)
         planned = planned_walls(channels, wide, clear, discs)
-    polygons = planned.polygons
-    least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * channels.reach_mm - _FACE_MM)
-    apart = kept_apart([polygon for polygon, _ in polygons], least_mm)
     openings = shapely.union_all([rims, *pin_discs(pins)]).buffer(THIN_WEB_MM + config.fit, quad_segs=16)
     kept = passage(channels, planned.held, wide).union(openings)
     room = channels.area.buffer(FRONT_MM).union(planned.room or shapely.Polygon())
     web_mm = THIN_WEB_MM + 2 * config.fit
+    pieces = list(planned.polygons)
+    if config.handle > 0:
+        pieces = joined(pieces, kept.union(room), wide.min_wall_width, web_mm)
+    least_mm = min(WALL_WEB_MM + 2 * config.fit, 2 * channels.reach_mm - _FACE_MM)
+    apart = kept_apart([polygon for polygon, _ in pieces], least_mm)
     handy = with_handles(apart, kept, room, wide.min_wall_width, config.handle, web_mm)
     faces = tuple(
         wall_face(channels, Wall(turns, polygon, config.wall_sheet))
-        for polygon, (_, turns) in zip(handy, polygons, strict=True)
+        for polygon, (_, turns) in zip(handy, pieces, strict=True)
     )
     walls = tuple(face.region for face in faces)
     held = really_held(turn_support(channels, walls), pins, planned.laid)
     loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
-    plan = LaserPlan(wires, walls, holes, pins, held)
-    return plan, (*planned.findings, *plain_finding(faces, "laser-cut jig"), *loose)
+    plan = LaserPlan(wires, walls, holes, pins, held, planned.laid)
+    wrapping = [*stray_findings(planned.laid), *hemmed_findings(channels, handy)]
+    here = [dataclasses.replace(each, where=f"laser-cut jig, {each.where}") for each in wrapping]
+    return plan, (*planned.findings, *plain_finding(faces, "laser-cut jig"), *loose, *here)
 
 
 def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
