@@ -69,9 +69,9 @@ class JigConfig(Block):
     """Once split, wires share a jig only if each has wall along this share of its turns (or can't alone)."""
 
     least_support: Annotated[float, number(0, 1)] = 0.3
-    """A piece can't be made as asked when the first of `jigs` would hold less than this share of its
-    turns and long stretches; 0 makes it all the same. A wire whose turns are held less, and a further kind of
-    jig that would hold less and is left out, are errors in the report.
+    """A piece can't be made as asked when the first of `jigs` would hold less than this share of its wires'
+    length; 0 makes it all the same. A wire that is held less, and a further kind of jig that would hold less
+    and is left out, are errors in the report.
     """
 
     wall_thickness: Annotated[float, length("0.2 mm", "50 mm", "3.5 mm")] = 3.5

@@ -9,7 +9,7 @@ from wrapit.errors import Finding
 from wrapit.geometry.arrays import runs
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import SEEN_MM, Course, Hold, Pin, SameShape, TurnSupport
-from wrapit.jig.support import kept, support_by_wire
+from wrapit.jig.support import held_share, kept
 
 # Turns with wall along less than this share are named: more of them is left to the hand than to the wall.
 WEAK = 0.5
@@ -70,17 +70,20 @@ def support_findings(
 
 
 def unheld_findings(held: Iterable[TurnSupport], config: JigConfig) -> tuple[Finding, ...]:
-    """An error for each wire most of whose turns nothing holds."""
+    """An error for each wire that the jig hardly holds."""
+    held = tuple(held)
+    wires = sorted({one.turn.wire for one in held})
+    shares = {wire: held_share(one for one in held if one.turn.wire == wire) for wire in wires}
     return tuple(
         Finding(
             "error",
             "unheld-wire",
             wire,
-            f"the jig holds {share:.0%} of this wire's turns; the others are left to the hand",
+            f"the jig holds {share:.0%} of this wire; the rest is left to the hand",
             "make the piece larger, take thinner wire, or set jig.split to per-wire",
             severity=1 - share,
         )
-        for wire, share in sorted(support_by_wire(held).items())
+        for wire, share in shares.items()
         if share < config.least_support
     )
 

@@ -90,7 +90,7 @@ class JigMaker:
     """A kind of jig.
 
     `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
-    made, UnheldError where it would hold too little. `held` is the share of the turns and long stretches that
+    made, UnheldError where it would hold too little. `held` is the share of the wires that
     it would hold, planned only. `solid` says that its parts are kernel solids: then `plan` does what needs no
     kernel, raises as `make` does, and returns what makes the solids, to be sent to the kernel's process, and
     `judge` looks at them once more, by other means, and raises KernelError where jig and wires have anything

@@ -28,9 +28,7 @@ def summary_lines(result: Build) -> Iterator[str]:
         jig = report["jig"]
         size = " × ".join(f"{value:.0f}" for value in jig["size_mm"])
         jigs = f"{jig['jigs']} jigs" if jig["jigs"] > 1 else "jig"
-        bends = any(wire["turns"] for wire in report["wires"])
-        held = f", {jig['held']:.0%} of turns held" if bends else ""
-        yield f"{jigs}: {_count(jig['walls'], 'wall')}, {size} mm{held}"
+        yield f"{jigs}: {_count(jig['walls'], 'wall')}, {size} mm, {jig['held']:.0%} of the wires held"
         if "interference_mm3" in jig:
             yield f"the kernel's booleans find {jig['interference_mm3']:g} mm³ of jig in wires and channels"
     if result.folder is not None:

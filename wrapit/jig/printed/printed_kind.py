@@ -49,7 +49,7 @@ def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, con
 
 
 def held(wires: Wires, config: Config) -> float:
-    """The share of the turns and long stretches that the jig would hold."""
+    """The share of the wires that the jig would hold."""
     from wrapit.jig.printed.planning import plan_jigs
 
     return held_share(one for jig in plan_jigs(wires, config.jig)[0].jigs for one in jig.held)

@@ -54,7 +54,7 @@ def make(wires: Wires, config: Config) -> Made:
 
 
 def held(wires: Wires, config: Config) -> float:
-    """The share of the turns and long stretches that walls cut from sheet would hold."""
+    """The share of the wires that walls cut from sheet would hold."""
     from wrapit.jig.sheet.stage import plan_stacks
 
     plans, _, _ = plan_stacks(wires, config.jig, config.plate)

@@ -205,7 +205,7 @@ def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
 
 
 def _unheld(wire: Wire, held: Iterable[TurnSupport]) -> Finding | None:
-    loose = [one.turn for one in held if one.turn.wire == wire.name and one.share == 0]
+    loose = [one.turn for one in held if one.turn in wire.turns and one.share == 0]
     if not loose:
         return None
     places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)
