@@ -12,6 +12,7 @@ import pytest
 from tests.exports.pieces_for_tests import arc_chain, drawing_of, eye, solution_of
 from tests.jig.sheet.laser import laser_of
 from wrapit.config import GuideConfig, WireConfig
+from wrapit.errors import Finding
 from wrapit.geometry import BezierChain, straight
 from wrapit.instructions.binding_order import assembly_order, binding_length_mm, find_ties
 from wrapit.instructions.plan import plan_guide
@@ -287,3 +288,24 @@ def test_the_map_of_each_stack_shows_its_own_wires() -> None:
     laser, _ = laser_jig(apart, (), JigConfig(), PlateConfig())
     shown = {stack.jig: [colour for _, colour in stack.wires] for stack in plan_laser_page(laser).stacks}
     assert shown == {f"jig-{wire.name}": [wire.colour] for wire in wires}
+
+
+def test_what_the_jig_leaves_to_the_hand_is_said_at_its_wire() -> None:
+    solution, wires = eye()
+    found = [
+        Finding("warning", "strays", "wire-02 at 41 mm", "it cuts the corner by 1.1 mm", "set jig.split"),
+        Finding("note", "hemmed", "laser-cut jig, wire-02 at 7 mm", "walls on both sides over 5 mm"),
+        Finding("warning", "turn-without-wall", "wire-01 at 5, 41 mm", "2 of 3 turns leave no room"),
+        Finding("note", "split", "wire-01", "there are 2 jigs"),
+        Finding("note", "small-wall", "(3.0, 4.0) mm", "1 wall is left out"),
+    ]
+    guide = plan_guide(solution, wires, GuideConfig(), WireConfig(), name="eye", findings=found)
+    first, second = guide.sheets[0].cautions, guide.sheets[1].cautions
+    assert len(first) == 1
+    assert first[0].startswith("At 5, 41 mm: 2 of 3 turns")
+    assert [text.split(":")[0] for text in second] == ["At 7 mm", "At 41 mm"]
+    assert "thumb" in second[1]
+    # What to change in the config is no help at the bench.
+    assert "jig.split" not in "".join(second)
+    html = write_instructions(solution, wires, GuideConfig(), WireConfig(), name="eye", findings=found)
+    assert html.count('class="cautions"') == 2

@@ -75,8 +75,8 @@ class SvgFrame:
         if isinstance(edge, Line):
             return f"L{self.xy(edge.end)}"
         if isinstance(edge, Arc):
-            # An SVG arc can't close on itself, so circles go in halves.
-            parts = max(1, math.ceil(abs(edge.sweep_rad) / math.radians(179)))
+            # An SVG arc can't close on itself, and near half a turn its centre hangs on its ends' last digit.
+            parts = max(1, math.ceil(abs(edge.sweep_rad) / math.radians(120) - 1e-9))
             return "".join(self._arc(edge, (index + 1) / parts) for index in range(parts))
         return self._beziers(edge)
 

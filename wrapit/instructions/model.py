@@ -45,7 +45,8 @@ class Step:
 class WireSheet:
     """Everything about the making of one wire; `ties` are met in this order, at mm from the mark.
 
-    `same_as` says which other wire's form it is made on, if it has that one's shape.
+    `same_as` says which other wire's form it is made on, if it has that one's shape; `hole` is the number at
+    the hole where it starts. `cautions` are what to do by hand where the jig alone doesn't do it.
     """
 
     number: int
@@ -54,8 +55,10 @@ class WireSheet:
     tail_mm: float
     jig: str
     same_as: str
+    hole: int
     overbend: str
     steps: tuple[Step, ...]
+    cautions: tuple[str, ...]
     ties: tuple[tuple[Tie, float], ...]
 
 

@@ -10,10 +10,20 @@ import numpy as np
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.decomposition.model import Solution, Traversal
 from wrapit.drawing.model import Drawing
+from wrapit.errors import Finding
 from wrapit.geometry import BezierChain, FloatArray
 from wrapit.instructions.binding_order import assembly_order, find_ties
 from wrapit.instructions.model import Guide, Material, Step, Tie, WireSheet
-from wrapit.instructions.wording import bend_at, joint_phrase, listed, millimetres, shape_phrase, thickness
+from wrapit.instructions.wording import (
+    BY_HAND,
+    bend_at,
+    caution,
+    joint_phrase,
+    listed,
+    millimetres,
+    shape_phrase,
+    thickness,
+)
 from wrapit.jig.made import Handling
 from wrapit.materials import METALS
 from wrapit.wires.model import Bail, JumpRing, Wire
@@ -30,6 +40,7 @@ def plan_guide(
     *,
     name: str,
     handling: Handling | None = None,
+    findings: Sequence[Finding] = (),
     ring: JumpRing | None = None,
 ) -> Guide:
     """The guide for these wires, in their order; ties are lettered, wires numbered from 1."""
@@ -54,8 +65,9 @@ def plan_guide(
                 ties,
                 wire_config,
                 handling.jig_of.get(wire.name, "") if handling is not None else "",
-                _same_as(wire, handling),
+                _form_of(wire, handling),
                 overbent=handling is not None and handling.overbent,
+                cautions=_cautions(wire, findings),
             )
             for number, wire in enumerate(wires, start=1)
         ),
@@ -124,8 +136,9 @@ def _sheet(
     ties: Sequence[Tie],
     wire_config: WireConfig,
     jig: str,
-    same_as: str,
+    form: tuple[int, bool] | None,
     overbent: bool,
+    cautions: tuple[str, ...],
 ) -> WireSheet:
     by_junction = {tie.junction: tie for tie in ties}
     return WireSheet(
@@ -134,19 +147,40 @@ def _sheet(
         thickness=thickness(wire.diameter_mm),
         tail_mm=(wire.cut_length_mm - wire.length_mm) / 2,
         jig=jig,
-        same_as=same_as,
+        same_as=_same_as(form),
+        hole=number if form is None else form[0],
         overbend=_overbend(wire, wire_config, overbent),
         steps=_steps(number, wire, drawing, by_junction),
+        cautions=cautions,
         ties=tuple((by_junction[binding.junction], binding.at_mm) for binding in wire.bindings),
     )
 
 
-def _same_as(wire: Wire, handling: Handling | None) -> str:
-    """Which form serves a wire that has the shape of another."""
+def _cautions(wire: Wire, findings: Sequence[Finding]) -> tuple[str, ...]:
+    """What the hand must do along a wire that its jig doesn't do, in the order of the wire."""
+    said = []
+    for finding in findings:
+        # A laser-cut jig's places begin with its name.
+        _, of_wire, place = finding.where.rpartition(f"{wire.name} at ")
+        if of_wire and finding.code in BY_HAND:
+            said.append((float(place.split()[0].rstrip(",")), caution(place, finding)))
+    return tuple(text for _, text in sorted(said))
+
+
+def _form_of(wire: Wire, handling: Handling | None) -> tuple[int, bool] | None:
+    """The number of the wire on whose form this one is made, and whether it is turned over then."""
     if handling is None or wire.name not in handling.same_as:
-        return ""
+        return None
     like, mirrored = handling.same_as[wire.name]
-    made = f"It has the shape of wire {int(like.rsplit('-', 1)[1])}: make it on the same form"
+    return int(like.rsplit("-", 1)[1]), mirrored
+
+
+def _same_as(form: tuple[int, bool] | None) -> str:
+    """Which form serves a wire that has the shape of another."""
+    if form is None:
+        return ""
+    like, mirrored = form
+    made = f"It has the shape of wire {like}: make it on the same form"
     return f"{made}, and turn it over when it is bent." if mirrored else f"{made}."
 
 

@@ -4,14 +4,25 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Final
 
 import numpy as np
 
+from wrapit.errors import Finding
 from wrapit.geometry import BezierChain, FloatArray
 from wrapit.units import SWG_MM, awg_diameter_mm
 
 # Headings that change by less than this along a stretch count as straight.
 STRAIGHT_RAD = math.radians(12)
+# What the hand does where the jig alone doesn't, by the finding.
+BY_HAND: Final = {
+    "strays": "Press the wire to the line with your thumb there, and hold it while you go on.",
+    "hemmed": "Press the wire in with a rounded stick there.",
+    "weak-turn": "Bend it there with round-nose pliers before you lay it.",
+    "weak-stretch": "Keep it straight by hand there.",
+    "turn-without-wall": "Bend it there with round-nose pliers before you lay it.",
+    "loose-end": "Hold the end with pliers until it is bent down into its hole.",
+}
 # Headings are taken so often: a tenth of the thickness of the usual wire.
 _STEP_MM = 0.1
 
@@ -28,6 +39,19 @@ def millimetres(length_mm: float) -> str:
     """To the half millimetre below 100 mm, which is what a ruler gives."""
     rounded = round(length_mm) if length_mm >= 100 else round(2 * length_mm) / 2
     return f"{rounded:g} mm"
+
+
+def caution(place: str, finding: Finding) -> str:
+    """What a finding of the jig says to the hand: `At 41 mm it will cut the corner by 1.1 mm: press …`."""
+    return f"At {place}: {finding.message}. {BY_HAND[finding.code]}"
+
+
+def duration(minutes: float) -> str:
+    """To what a rule of thumb knows: `45 min`, `1 h 15 min`."""
+    quarters = max(1, round(minutes / 15))
+    hours, rest = divmod(15 * quarters, 60)
+    parts = [f"{hours} h"] * (hours > 0) + [f"{rest} min"] * (rest > 0)
+    return " ".join(parts)
 
 
 def listed(items: list[str]) -> str:

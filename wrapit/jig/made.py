@@ -57,6 +57,11 @@ def handled_in(jig_of: Mapping[str, str], forms: Iterable[SameShape]) -> Handlin
     )
 
 
+def file_stem(name: str, count: int) -> str:
+    """What the files of a jig are named, before their suffix: by its name where there are several."""
+    return name if count > 1 else "jig"
+
+
 @dataclass(frozen=True, eq=False)
 class GuidePage:
     """A page of the guide about a jig: its template, below `wrapit/jig`, and what that shows."""

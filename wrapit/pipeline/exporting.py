@@ -48,13 +48,15 @@ def write_guide(
     """`guide.html`; its steps speak of the first jig that holds wires."""
     from wrapit.instructions.stage import write_instructions
 
+    held_in = next((made for made in jigs if made.handling is not None), None)
     page = write_instructions(
         solution,
         wires,
         config.guide,
         config.wire,
         name=config.name,
-        handling=next((made.handling for made in jigs if made.handling is not None), None),
+        handling=held_in.handling if held_in is not None else None,
+        findings=held_in.findings if held_in is not None else (),
         pages=[made.page for made in jigs if made.page is not None],
         ring=ring,
     )

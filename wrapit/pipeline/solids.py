@@ -11,7 +11,7 @@ from typing import Any
 from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray
-from wrapit.jig.made import Made, Wires
+from wrapit.jig.made import Made, Wires, file_stem
 from wrapit.materials import METALS
 from wrapit.wires.model import JumpRing
 
@@ -65,7 +65,7 @@ def _write(made: Made, config: Config, folder: Path, suffix: str) -> Frames:
         by_name = {part.name: list(by) for part, by in zip(parts, places, strict=True)}
         frames[name] = by_name if len(parts) > 1 else list(places[0])
     for part, (low, _) in zip(parts, boxes, strict=True):
-        stem = f"{part.name if len(parts) > 1 else 'jig'}{suffix}"
+        stem = f"{file_stem(part.name, len(parts))}{suffix}"
         if "step" in config.outputs and len(parts) > 1:
             write_step(folder / f"{stem}.step", config.name, [part])
             frames[f"{stem}.step"] = [0.0, 0.0, 0.0]

@@ -97,3 +97,32 @@ def test_exact_areas_are_shapelys_and_stay_under_rigid_motion(seed: int, turn: f
     quarter = Region(Loop(tuple(moved(edge, round(turn), (shift, -shift)) for edge in region.outer.edges)))
     assert loop_area_mm2(quarter.outer) == pytest.approx(loop_area_mm2(region.outer), rel=1e-9)
     assert loop_area_mm2(reversed_loop(region.outer)) == pytest.approx(-loop_area_mm2(region.outer), rel=1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(2.0, 15.0), st.booleans()), min_size=1, max_size=3),
+    st.floats(25, 110),
+    st.sampled_from([-0.025, 0.025, 0.1]),
+)
+def test_edges_as_short_as_a_hair_keep_their_parallels(
+    steps: list[tuple[float, bool]], bend_deg: float, by: float
+) -> None:
+    """A square one of whose sides has steps of twice the offset and more, as walls have at their feet."""
+    corners = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (3.0, 6.0)]
+    for share, up in steps:
+        (x, y), length = corners[-1], share * abs(by)
+        turned = math.radians(180 + (bend_deg if up else -bend_deg))
+        corners += [(x + length * math.cos(turned), y + length * math.sin(turned))]
+        corners += [(corners[-1][0] - length, corners[-1][1])]
+    corners.append((0.0, corners[-1][1]))
+    square = Polygon(corners)
+    expected = square.buffer(by, quad_segs=64)
+    if not square.is_valid or expected.geom_type != "Polygon" or expected.interiors:
+        return
+    ring = [(float(x), float(y)) for x, y in square.exterior.coords[:-1]]
+    edges = tuple(Line(a, b) for a, b in zip(ring, [*ring[1:], ring[0]], strict=True))
+    (moved_one,) = offset_region(Region(Loop(edges)), by)
+    found = polygon_of(moved_one, 1e-5)
+    assert found.is_valid
+    assert found.exterior.hausdorff_distance(expected.exterior) < 1e-3

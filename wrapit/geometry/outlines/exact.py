@@ -12,6 +12,7 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,11 @@ from wrapit.geometry.polyline import signed_area
 # How close together a polygon's points are, when its sides are recognised: a third more or less moves the
 # area of 16 walls (2250 mm²) by 0.02 mm².
 STEP_MM = 0.1
+# Between two marks, which are the ring's sharp corners and the places beside curves' ends, are so many steps
+# at least: a short side with points at its ends alone would be lost, as those are its neighbours' as well.
+CORNER_RAD = math.radians(6)
+BETWEEN_MARKS = 4
+SAME_PLACE_MM = 1e-7
 SIDEWAYS = 0.02  # a foot more oblique than this (sine) is at a corner or an end
 # How near free sides are to the polygon; nothing rests on them. At 0.0035 they have 7 % more cubics.
 # Nearer only where a curve is that they must not come too near to.
@@ -53,6 +59,14 @@ class Outliner:
         curves = CurveSet.of([as_chain(edge) for edge in edges])
         return Outliner(tuple(edges), curves, tuple(sorted(set(distances_mm))), slack_mm)
 
+    @cached_property
+    def _joints(self) -> Any:
+        """The ends of all curves, as shapely's points."""
+        import shapely
+
+        chains = [as_chain(edge) for edge in self.edges]
+        return shapely.points([end for chain in chains for end in (chain.start, chain.end)])
+
     def region(self, polygon: Any) -> Region:
         """The exact region of a polygon whose outer ring is counter-clockwise, holes clockwise."""
         from shapely.geometry.polygon import orient
@@ -62,7 +76,7 @@ class Outliner:
 
     def loop(self, ring: Any) -> Loop:
         """The exact loop of one ring."""
-        runs, endless = self._runs(np.asarray(ring.segmentize(STEP_MM).coords)[:-1])
+        runs, endless = self._runs(_sampled(ring, self._joints, self.distances_mm[-1] + self.slack_mm))
         if endless:
             return Loop(tuple(self._whole(runs[0])))
         ends = [
@@ -92,13 +106,14 @@ class Outliner:
         oblique = np.abs((tangents * away).sum(axis=1)) > SIDEWAYS * distance
         centres = _Points()
         known: dict[tuple[str, int, float], int] = {}
+        at = np.flatnonzero(on)
         for index, (foot, slant, curve, side, mm) in enumerate(
             zip(feet, oblique, near.curve[on], across, distance.tolist(), strict=True)
         ):
             name = (
                 ("round", centres.index(foot), mm) if slant else ("side", int(curve), math.copysign(mm, side))
             )
-            key[np.flatnonzero(on)[index]] = known.setdefault(name, len(known))
+            key[at[index]] = known.setdefault(name, len(known))
         place[on] = np.where(oblique, np.arctan2(away[:, 1], away[:, 0]), near.at[on])
         parallels = {number: self._parallel(*name, centres.points) for name, number in known.items()}
         return _grouped(points, key, place, parallels)
@@ -156,6 +171,33 @@ class Outliner:
         between = shapely.points(sampled[near < self.distances_mm[-1] - 1e-7])
         apart = shapely.distance(between, shapely.LineString(points))
         return bool(apart.max(initial=0.0) <= self.slack_mm)
+
+
+def _sampled(ring: Any, joints: Any, far_mm: float) -> FloatArray:
+    """The ring's corners (n, 2) with points between them at most STEP_MM apart, more between near marks.
+
+    `joints` are the ends of curves (shapely points); those within `far_mm` of the ring are marks.
+    """
+    import shapely
+
+    corners = np.asarray(ring.coords)
+    along = np.diff(corners, axis=0)
+    place = np.concatenate([[0.0], np.cumsum(np.linalg.norm(along, axis=1))])
+    before = np.roll(along, 1, axis=0)
+    cross = before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0]
+    sharp = np.abs(np.arctan2(cross, (before * along).sum(axis=1))) > CORNER_RAD
+    beside = shapely.line_locate_point(ring, joints[shapely.dwithin(joints, ring, far_mm)])
+    marks = np.unique(np.concatenate([place[:-1][sharp], beside]))
+    steps = np.diff(marks) / BETWEEN_MARKS
+    fine = steps < STEP_MM
+    inner = (marks[:-1] + np.arange(1, BETWEEN_MARKS)[:, None] * steps)[:, fine] if len(marks) else marks
+    every = np.unique(np.concatenate([place, marks, inner.ravel()]))
+    every = every[np.concatenate([[True], np.diff(every) > SAME_PLACE_MM])]
+    pieces = np.ceil(np.diff(every) / STEP_MM).astype(int)
+    which = np.repeat(np.arange(len(pieces)), pieces)
+    share = (np.arange(len(which)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[which]
+    at = every[which] + share * np.diff(every)[which]
+    return np.column_stack([np.interp(at, place, corners[:, axis]) for axis in (0, 1)])
 
 
 class _Points:

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.jig.made import Handling, JigMaker, Made, View, Wires, handled_in
+from wrapit.jig.made import GuidePage, Handling, JigMaker, Made, View, Wires, handled_in
 from wrapit.jig.model import Jig, JigSet, straying
 from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
+from wrapit.jig.printed.printing_page import plan_print_page
 from wrapit.jig.support import held_share
 
 if TYPE_CHECKING:
@@ -45,6 +46,9 @@ def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, con
         parts=tuple(jig.part for jig in jigs.jigs),
         views=_views(jigs, wires),
         handling=handling(jigs),
+        page=GuidePage(
+            "print", "Print the jig", "printed/page.html.jinja", plan_print_page(jigs, wires, config)
+        ),
     )
 
 
