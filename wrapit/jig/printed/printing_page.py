@@ -15,7 +15,7 @@ from wrapit.jig.model import Jig, JigSet
 from wrapit.wires.model import Wire
 
 # A rule of thumb for each cm³ of the solid in PLA, layers of 0.2 mm, two perimeters and a fifth of infill.
-# PrusaSlicer says 6.2 to 7.4 minutes (the larger the jig, the fewer) and 1.10 to 1.17 g of five pieces of ours
+# PrusaSlicer says 6.2 to 7.4 minutes (the larger the jig, the fewer) and 1.10 to 1.17 g of five of our pieces
 # at 40, 60 and 90 mm.
 MINUTES_PER_CM3 = 6.8
 GRAMS_PER_CM3 = 1.13
