@@ -29,8 +29,9 @@ from wrapit.geometry.polyline import signed_area
 # How close together a polygon's points are, when its sides are recognised: a third more or less moves the
 # area of 16 walls (2250 mm²) by 0.02 mm².
 STEP_MM = 0.1
-# Between two marks, which are the ring's sharp corners and the places beside curves' ends, are so many steps
-# at least: a short side with points at its ends alone would be lost, as those are its neighbours' as well.
+# Between two marks there are so many steps at least. Marks are the ring's sharp corners, the places beside
+# curves' ends, and where it begins. A short side with points at its ends alone would be lost: those are its
+# neighbours' as well.
 CORNER_RAD = math.radians(6)
 BETWEEN_MARKS = 4
 SAME_PLACE_MM = 1e-7
@@ -187,10 +188,9 @@ def _sampled(ring: Any, joints: Any, far_mm: float) -> FloatArray:
     cross = before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0]
     sharp = np.abs(np.arctan2(cross, (before * along).sum(axis=1))) > CORNER_RAD
     beside = shapely.line_locate_point(ring, joints[shapely.dwithin(joints, ring, far_mm)])
-    marks = np.unique(np.concatenate([place[:-1][sharp], beside]))
+    marks = np.unique(np.concatenate([place[[0, -1]], place[:-1][sharp], beside]))
     steps = np.diff(marks) / BETWEEN_MARKS
-    fine = steps < STEP_MM
-    inner = (marks[:-1] + np.arange(1, BETWEEN_MARKS)[:, None] * steps)[:, fine] if len(marks) else marks
+    inner = (marks[:-1] + np.arange(1, BETWEEN_MARKS)[:, None] * steps)[:, steps < STEP_MM]
     every = np.unique(np.concatenate([place, marks, inner.ravel()]))
     every = every[np.concatenate([[True], np.diff(every) > SAME_PLACE_MM])]
     pieces = np.ceil(np.diff(every) / STEP_MM).astype(int)

@@ -81,11 +81,8 @@ def _strips(
         clear = ~shapely.contains_xy(barred, ends.mean(axis=1))
         both = one.union(other)
         near = both.buffer(STRIP_MM)
-        thirds = [
-            wall for at, wall in enumerate(walls) if at not in (first, second) and wall.intersects(near)
-        ]
-        webs = [third.buffer(apart_mm) for third in thirds]
-        kept = shapely.union_all([barred.intersection(near), *webs]).difference(both)
+        others = shapely.union_all([wall for index, wall in enumerate(walls) if index not in (first, second)])
+        kept = barred.union(others.buffer(apart_mm)).intersection(near).difference(both)
         shapely.prepare(kept)
         for line in shapely.linestrings(ends[clear]):
             bare = line.buffer(width_mm / 2, cap_style="flat").difference(both)
