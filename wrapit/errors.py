@@ -12,7 +12,8 @@ Level = Literal["note", "warning", "error"]
 class Finding:
     """Something the maker should know about a result; `code` is stable, the rest is for reading.
 
-    `severity` orders findings of one kind: the largest is the worst.
+    `severity` orders findings of one kind: the largest is the worst. What concerns places along a wire says
+    so in `wire` and `places_mm` too.
     """
 
     level: Level
@@ -21,6 +22,8 @@ class Finding:
     message: str
     remedy: str = ""
     severity: float = field(default=0.0, compare=False)
+    wire: str = field(default="", compare=False)
+    places_mm: tuple[float, ...] = field(default=(), compare=False)
 
 
 class WrapItError(Exception):

@@ -292,17 +292,21 @@ def test_the_map_of_each_stack_shows_its_own_wires() -> None:
 
 def test_what_the_jig_leaves_to_the_hand_is_said_at_its_wire() -> None:
     solution, wires = eye()
+
+    def of(wire: str, code: str, message: str, *places_mm: float) -> Finding:
+        return Finding("warning", code, "there", message, "set jig.split", wire=wire, places_mm=places_mm)
+
     found = [
-        Finding("warning", "strays", "wire-02 at 41 mm", "it cuts the corner by 1.1 mm", "set jig.split"),
-        Finding("note", "hemmed", "laser-cut jig, wire-02 at 7 mm", "walls on both sides over 5 mm"),
-        Finding("warning", "turn-without-wall", "wire-01 at 5, 41 mm", "2 of 3 turns leave no room"),
+        of("wire-02", "strays", "it cuts the corner by 1.1 mm", 41.2),
+        of("wire-02", "hemmed", "walls on both sides over 5 mm", 7.0),
+        of("wire-01", "turn-without-wall", "2 of 3 turns leave no room", 5.0, 41.0),
         Finding("note", "split", "wire-01", "there are 2 jigs"),
         Finding("note", "small-wall", "(3.0, 4.0) mm", "1 wall is left out"),
     ]
     guide = plan_guide(solution, wires, GuideConfig(), WireConfig(), name="eye", findings=found)
     first, second = guide.sheets[0].cautions, guide.sheets[1].cautions
     assert len(first) == 1
-    assert first[0].startswith("At 5, 41 mm: 2 of 3 turns")
+    assert first[0].startswith("At 5 and 41 mm: 2 of 3 turns")
     assert [text.split(":")[0] for text in second] == ["At 7 mm", "At 41 mm"]
     assert "thumb" in second[1]
     # What to change in the config is no help at the bench.

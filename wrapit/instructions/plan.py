@@ -158,13 +158,8 @@ def _sheet(
 
 def _cautions(wire: Wire, findings: Sequence[Finding]) -> tuple[str, ...]:
     """What the hand must do along a wire that its jig doesn't do, in the order of the wire."""
-    said = []
-    for finding in findings:
-        # A laser-cut jig's places begin with its name.
-        _, of_wire, place = finding.where.rpartition(f"{wire.name} at ")
-        if of_wire and finding.code in BY_HAND:
-            said.append((float(place.split()[0].rstrip(",")), caution(place, finding)))
-    return tuple(text for _, text in sorted(said))
+    mine = [finding for finding in findings if finding.wire == wire.name and finding.code in BY_HAND]
+    return tuple(map(caution, sorted(mine, key=lambda finding: finding.places_mm)))
 
 
 def _form_of(wire: Wire, handling: Handling | None) -> tuple[int, bool] | None:

@@ -41,9 +41,10 @@ def millimetres(length_mm: float) -> str:
     return f"{rounded:g} mm"
 
 
-def caution(place: str, finding: Finding) -> str:
-    """What a finding of the jig says to the hand: `At 41 mm it will cut the corner by 1.1 mm: press …`."""
-    return f"At {place}: {finding.message}. {BY_HAND[finding.code]}"
+def caution(finding: Finding) -> str:
+    """What a finding of the jig says to the hand: `At 41 mm: it will cut the corner by 1.1 mm. Press …`."""
+    places = listed([f"{at_mm:.0f}" for at_mm in finding.places_mm])
+    return f"At {places} mm: {finding.message}. {BY_HAND[finding.code]}"
 
 
 def duration(minutes: float) -> str:

@@ -30,7 +30,7 @@ def support_findings(
     pin_in = {pin.turn: pin for pin in pins}
     findings = []
     for one in support:
-        where = channels.place(one.turn)
+        where, at_mm = channels.place(one.turn), (one.turn.start_mm + one.turn.end_mm) / 2
         if one.turn in pin_in:
             diameter = pin_in[one.turn].diameter_mm
             findings.append(
@@ -53,6 +53,8 @@ def support_findings(
                     f"{one.share:.0%} of this long stretch has a wall",
                     "keep it straight by hand, make the piece larger, or set jig.split to per-wire",
                     severity=1 - one.share,
+                    wire=one.turn.wire,
+                    places_mm=(at_mm,),
                 )
             )
         else:
@@ -64,6 +66,8 @@ def support_findings(
                     f"{one.share:.0%} of this turn has a wall on the inside",
                     _remedy(channels, one, config),
                     severity=1 - one.share,
+                    wire=one.turn.wire,
+                    places_mm=(at_mm,),
                 )
             )
     return tuple(findings)
@@ -138,6 +142,8 @@ def stray_findings(laid: Iterable[Course]) -> tuple[Finding, ...]:
                     f"wrapped tight, it will cut the corner by {course.off_mm[worst]:.1f} mm",
                     "press it by hand there, make the piece larger, or set jig.split to per-wire",
                     severity=float(course.off_mm[worst]),
+                    wire=course.wire,
+                    places_mm=(float(course.at_mm[worst]),),
                 )
             )
     return tuple(findings)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Final
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
@@ -55,6 +55,10 @@ def handled_in(jig_of: Mapping[str, str], forms: Iterable[SameShape]) -> Handlin
         jig_of={**jig_of, **{form.wire: jig_of[form.like] for form in forms}},
         same_as={form.wire: (form.like, form.mirrored) for form in forms},
     )
+
+
+# What the names of files of the other earring end in.
+MIRRORED: Final = "-mirrored"
 
 
 def file_stem(name: str, count: int) -> str:

@@ -82,6 +82,8 @@ def loose_ends(walls: StandingWalls, config: Config) -> tuple[Finding, ...]:
                     f"let go after its last wall, its end springs {moved_mm:.1f} mm aside, past its hole",
                     "hold the end with pliers until it is bent down into its hole",
                     severity=moved_mm,
+                    wire=course.wire,
+                    places_mm=(float(course.at_mm[-1]),),
                 )
             )
     return tuple(findings)

@@ -7,17 +7,14 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, TypeVar
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding, UnheldError
-from wrapit.jig.made import JigMaker, Made, Wires
+from wrapit.jig.made import MIRRORED, JigMaker, Made, Wires
 from wrapit.pipeline.solids import judged_solids, make_solids, write_wires
 from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import Worker
-
-# What the names of files of the other earring end in.
-MIRRORED: Final = "-mirrored"
 
 T = TypeVar("T")
 

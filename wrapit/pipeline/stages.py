@@ -6,6 +6,7 @@ import contextlib
 from pathlib import Path
 
 from wrapit.config import lock_text
+from wrapit.jig.made import MIRRORED
 from wrapit.pipeline import report as reports
 from wrapit.pipeline.exporting import (
     write_alternatives,
@@ -13,7 +14,7 @@ from wrapit.pipeline.exporting import (
     write_guide,
     write_views,
 )
-from wrapit.pipeline.jigs import MIRRORED, make_jigs, wires_beside
+from wrapit.pipeline.jigs import make_jigs, wires_beside
 from wrapit.pipeline.solids import PRELOAD
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work

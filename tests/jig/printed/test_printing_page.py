@@ -27,7 +27,7 @@ def test_each_wire_has_its_number_on_the_hole_where_it_starts() -> None:
     )
     settings = Config(drawing="x", outputs=["stl"])
     jigs, _ = build_jig(wires, JigConfig(split="single"))
-    (page,) = plan_print_page(jigs, wires, settings).jigs
+    (page,) = plan_print_page(jigs, wires, settings)
     (jig,) = jigs.jigs
     marks = {mark.text: (float(mark.x), float(mark.y)) for mark in page.starts}
     assert set(marks) == {"1, 2", "3"}

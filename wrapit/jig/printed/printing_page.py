@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,18 +10,21 @@ import numpy as np
 
 from wrapit.config import Config
 from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.geometry.svgframe import SvgFrame, number
-from wrapit.jig.made import file_stem
+from wrapit.jig.made import MIRRORED, file_stem
 from wrapit.jig.model import Jig, JigSet
 from wrapit.wires.model import Wire
 
-# A rule of thumb for each cm³ of the solid in PLA, layers of 0.2 mm, two perimeters and a fifth of infill.
-# PrusaSlicer says 6.2 to 7.4 minutes (the larger the jig, the fewer) and 1.10 to 1.17 g of five of our pieces
-# at 40, 60 and 90 mm.
-MINUTES_PER_CM3 = 6.8
-GRAMS_PER_CM3 = 1.13
+# A rule of thumb for each cm³ of the solid in PLA of 1.24 g/cm³, with what the page says: layers of 0.2 mm,
+# two perimeters, 20 % infill. PrusaSlicer, so set, says 7.7 to 9.5 minutes (the larger the jig, the fewer)
+# and 0.94 to 1.06 g of five of our pieces at 40, 60 and 90 mm.
+MINUTES_PER_CM3 = 8.5
+GRAMS_PER_CM3 = 0.99
 # How large numbers stand on the picture, as a share of its longer side: over 11 px on a phone.
 TEXT = 0.045
+# How finely the plate is sampled for the picture's size.
+SAMPLED_MM = 0.05
 
 
 @dataclass(frozen=True)
@@ -37,8 +41,8 @@ class StartMark:
 class PrintedJig:
     """One jig to print, and its picture: path data of plate, walls and (path, colour) of wires.
 
-    `files` are what to print, one of them; `mirrored` those of the other earring. `pins` are (wire, at mm,
-    diameter).
+    `files` are what to print, one of them; `mirrored` those of the other earring. `pins` are (wire, mm
+    along it, diameter in mm).
     """
 
     name: str
@@ -48,8 +52,7 @@ class PrintedJig:
     size_mm: tuple[float, float, float]
     minutes: float
     grams: float
-    pins: tuple[tuple[int, float, float], ...]
-    seats: int
+    pins: tuple[tuple[str, float, float], ...]
     view_box: str
     plate: str
     walls: tuple[str, ...]
@@ -58,39 +61,29 @@ class PrintedJig:
     text_mm: str
 
 
-@dataclass(frozen=True)
-class PrintPage:
-    """The whole page."""
-
-    jigs: tuple[PrintedJig, ...]
-    material: str = "PLA or PETG"
-
-
-def plan_print_page(jigs: JigSet, wires: Sequence[Wire], config: Config) -> PrintPage:
-    """The page of these jigs."""
-    return PrintPage(tuple(_printed(jig, len(jigs.jigs), wires, config) for jig in jigs.jigs))
+def plan_print_page(jigs: JigSet, wires: Sequence[Wire], config: Config) -> tuple[PrintedJig, ...]:
+    """What the page says of each jig."""
+    return tuple(_printed(jig, len(jigs.jigs), wires, config) for jig in jigs.jigs)
 
 
 def _printed(jig: Jig, count: int, wires: Sequence[Wire], config: Config) -> PrintedJig:
     mine = [wire for wire in wires if wire.name in jig.wires]
-    low, high = (np.array(corner) for corner in np.split(np.array(_bounds(jig)), 2))
-    frame = SvgFrame.around(low, high, 1.0)
+    left, bottom, right, top = polygon_of(jig.plate, SAMPLED_MM).bounds
+    frame = SvgFrame.around(np.array([left, bottom]), np.array([right, top]), 1.0)
     text_mm = TEXT * max(frame.width_mm, frame.height_mm)
-    number_of = {wire.name: wire.number for wire in mine}
     volume_cm3 = jig.volume_mm3 / 1000
     return PrintedJig(
         name=jig.name,
         files=_files(jig.name, count, config, ""),
-        mirrored=_files(jig.name, count, config, "-mirrored") if config.pair else (),
-        wires=tuple(number_of.values()),
+        mirrored=_files(jig.name, count, config, MIRRORED) if config.pair else (),
+        wires=tuple(wire.number for wire in mine),
         size_mm=jig.size_mm,
         minutes=MINUTES_PER_CM3 * volume_cm3,
         grams=GRAMS_PER_CM3 * volume_cm3,
         pins=tuple(
-            (number_of[pin.turn.wire], (pin.turn.start_mm + pin.turn.end_mm) / 2, pin.diameter_mm)
+            (pin.turn.wire, (pin.turn.start_mm + pin.turn.end_mm) / 2, pin.diameter_mm)
             for pin in jig.plan.pins
         ),
-        seats=len(jig.plan.seats),
         view_box=frame.view_box,
         plate=frame.region(jig.plate),
         walls=tuple(frame.region(wall) for wall in jig.walls),
@@ -98,13 +91,6 @@ def _printed(jig: Jig, count: int, wires: Sequence[Wire], config: Config) -> Pri
         starts=_starts(jig, mine, frame, text_mm),
         text_mm=number(text_mm),
     )
-
-
-def _bounds(jig: Jig) -> tuple[float, float, float, float]:
-    from wrapit.geometry.outlines.polygons import polygon_of
-
-    bounds: tuple[float, float, float, float] = polygon_of(jig.plate, 0.05).bounds
-    return bounds
 
 
 def _files(name: str, count: int, config: Config, suffix: str) -> tuple[str, ...]:
@@ -116,23 +102,14 @@ def _files(name: str, count: int, config: Config, suffix: str) -> tuple[str, ...
 
 def _starts(jig: Jig, wires: Sequence[Wire], frame: SvgFrame, text_mm: float) -> tuple[StartMark, ...]:
     """A mark on each hole in which wires start, with their numbers."""
+    starting: dict[tuple[float, float], list[str]] = {}
+    for wire in wires:
+        holes = [hole.centre for hole in jig.plan.holes if wire.name in hole.wires]
+        nearest = min(holes, key=lambda centre: math.dist(centre, wire.ends[0]))
+        starting.setdefault(nearest, []).append(str(wire.number))
     marks = []
-    for hole in jig.plan.holes:
-        starting = [
-            str(wire.number)
-            for wire in wires
-            if wire.name in hole.wires and _nearest(wire, jig) == hole.centre
-        ]
-        if starting:
-            x, y = frame.at(hole.centre)
-            text = ", ".join(starting)
-            radius = text_mm * (0.45 + 0.3 * len(text))
-            marks.append(StartMark(text, number(x), number(y), number(radius)))
+    for centre, numbers in starting.items():
+        (x, y), text = frame.at(centre), ", ".join(numbers)
+        radius = text_mm * (0.45 + 0.3 * len(text))
+        marks.append(StartMark(text, number(x), number(y), number(radius)))
     return tuple(marks)
-
-
-def _nearest(wire: Wire, jig: Jig) -> tuple[float, float]:
-    """The centre of the hole in which a wire starts."""
-    start = wire.ends[0]
-    holes = [hole for hole in jig.plan.holes if wire.name in hole.wires]
-    return min(holes, key=lambda hole: float(np.hypot(*(np.array(hole.centre) - start)))).centre

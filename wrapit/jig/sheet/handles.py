@@ -17,9 +17,9 @@ from wrapit.jig.wall_ground import TOUCH_MM, printable, rounded
 # How a piece grows: in all directions at once, a STEP at a time, until it is long enough. So it is at most
 # two steps longer than asked: half of that takes twice the time, and no fingers tell the difference.
 STEP_MM = 0.5
-# What grows keeps this far off the wires' channels, half a millimetre more than its hollows are round
-# (`wall_ground.BACK_MM`): faces stay as they were planned. At 0 mm seven of the leaf's outlines are no
-# longer exact, at 1.5 mm one, as without handles.
+# What grows or joins keeps this far off the wires' channels, half a millimetre more than hollows are round
+# (`wall_ground.BACK_MM`): faces stay as they were planned. Leaf, butterfly and lotus have as many pieces, and
+# all outlines exact, at 0.75 and 0 mm too.
 FRONT_MM = 1.5
 # How far apart two walls may be that become one piece over a strip as wide as the narrowest wall: six times
 # that width, so that the strip doesn't break while the piece is glued. The gallery's 91 walls are 76 pieces

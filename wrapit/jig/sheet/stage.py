@@ -208,13 +208,15 @@ def _unheld(wire: Wire, held: Iterable[TurnSupport]) -> Finding | None:
     loose = [one.turn for one in held if one.turn in wire.turns and one.share == 0]
     if not loose:
         return None
-    places = ", ".join(f"{(turn.start_mm + turn.end_mm) / 2:.0f}" for turn in loose)
+    places = tuple((turn.start_mm + turn.end_mm) / 2 for turn in loose)
     return Finding(
         "warning",
         "turn-without-wall",
-        f"{wire.name} at {places} mm",
+        f"{wire.name} at {', '.join(f'{at_mm:.0f}' for at_mm in places)} mm",
         f"{len(loose)} of {len(wire.turns)} turns and stretches leave no room for a wall cut from sheet",
         "bend there by hand, make the piece larger, or print the jig",
+        wire=wire.name,
+        places_mm=places,
     )
 
 

@@ -47,6 +47,8 @@ def hemmed_findings(channels: Channels, walls: Iterable[Any]) -> tuple[Finding, 
                 f"walls stand on both sides over {end - start:.0f} mm{places}: each holds a wire there",
                 "press the wire in with a rounded stick there",
                 severity=end - start,
+                wire=wire.name,
+                places_mm=((start + end) / 2,),
             )
         )
     return tuple(findings)
