@@ -130,6 +130,5 @@ def _size(cubic: FloatArray) -> float:
 
 
 def _sizes(cubics: FloatArray) -> FloatArray:
-    """Lengths (n,) of cubics (n, 4, 2), about: the mean of chord and control polygon, for they are short."""
-    chords = np.linalg.norm(cubics[:, 3] - cubics[:, 0], axis=1)
-    return np.asarray((steps(cubics).sum(axis=1) + chords) / 2)
+    """Lengths (n,) of cubics (n, 4, 2) along eight chords: never longer than they are."""
+    return np.asarray(steps(evaluate(cubics, _PLACES)).sum(axis=1))
