@@ -9,11 +9,12 @@ from pydantic import Field, field_validator
 from wrapit.config.bail import BailConfig
 from wrapit.config.block import Block
 from wrapit.config.decomposition import DecompositionConfig
+from wrapit.config.guide import GuideConfig
 from wrapit.config.jig import JigConfig
 from wrapit.config.naming import LONGEST_NAME, LONGEST_PATH, name_problem, path_problem
 from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
-from wrapit.config.quantities import length, whole, wire_gauge
+from wrapit.config.quantities import length, wire_gauge
 from wrapit.config.tracing import TracingConfig
 from wrapit.materials import MetalName, Temper
 from wrapit.units import awg_diameter_mm
@@ -22,7 +23,7 @@ NAME_PATTERN: Final = r'^(?![ .-])[^\\/:*?"<>|\x00-\x1f]*(?<![ .])$'
 """For editors, which know no Unicode classes: `naming` says more exactly what a name is."""
 
 JigKind = Literal["printed", "sheet", "pegs"]
-Output = Literal["step", "stl", "3mf", "dxf", "svg", "html"]
+Output = Literal["step", "stl", "3mf", "dxf", "svg", "html", "pdf"]
 
 
 class WireConfig(Block):
@@ -36,19 +37,6 @@ class WireConfig(Block):
 
     temper: Temper = "dead soft"
     """How hard the metal is drawn; soft wire bends more tightly."""
-
-
-class GuideConfig(Block):
-    """The step-by-step guide."""
-
-    binding_gauge: Annotated[float, wire_gauge("0.05 mm", "3 mm", "28 AWG")] = awg_diameter_mm(28)
-    """Thin wire that ties the wires together."""
-
-    binding_turns: Annotated[int, whole(1, 50)] = 5
-    """Turns of binding wire at each connection."""
-
-    margin: Annotated[float, length("0 mm", "1 m", "50 mm")] = 50.0
-    """Extra wire to hold and bend, both ends of a wire together (at least 15 % of its length)."""
 
 
 class Config(Block):
@@ -79,8 +67,10 @@ class Config(Block):
     jigs: tuple[JigKind, ...] = Field(default=("printed", "sheet"), min_length=1, max_length=3)
     """Which jigs to make: `printed` (a 3D printer's), `sheet` (laser-cut), `pegs` (a board with pegs)."""
 
-    outputs: tuple[Output, ...] = Field(default=("step", "stl", "3mf", "dxf", "svg", "html"), max_length=6)
-    """Which formats to write beside the drawing, the wires and the report; `html` is the guide."""
+    outputs: tuple[Output, ...] = Field(
+        default=("step", "stl", "3mf", "dxf", "svg", "html", "pdf"), max_length=7
+    )
+    """Formats to write beside drawing, wires and report; `html` is the guide, `pdf` a print of it."""
 
     @field_validator("name")
     @classmethod

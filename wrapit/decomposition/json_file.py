@@ -18,6 +18,15 @@ def wire_name(index: int) -> str:
     return f"wire-{index + 1:02d}"
 
 
+def wire_number(name: str) -> int:
+    """The number, from 1, of the wire with a name.
+
+    >>> wire_number("wire-12")
+    12
+    """
+    return int(name.rpartition("-")[2])
+
+
 def decomposition_json(solution: Solution) -> str:
     """The text of `decomposition.json` (format `wrapit-decomposition/1`), one wire per line."""
     document = decomposition_summary(solution)

@@ -1,21 +1,17 @@
-"""The guide before it becomes a page: what to prepare, bend, lay and tie, in order."""
+"""The guide before it becomes a page or a print: steps, ties, strips, and what is to be had at hand."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
-from wrapit.wires.model import JumpRing, Wire
+from wrapit.instructions.order.moves import Move
+from wrapit.pages.model import Block, Figure, Shape, Text
+from wrapit.wires.model import Wire
 
-
-@dataclass(frozen=True)
-class Material:
-    """Something to have at hand."""
-
-    what: str
-    thickness: str
-    length_mm: float
-    mass_g: float
-    note: str
+StepKind = Literal["start", "shape", "end", "again", "lift", "place", "tie", "ends", "ring"]
+Difficulty = Literal["easy", "medium", "hard"]
 
 
 @dataclass(frozen=True)
@@ -31,59 +27,94 @@ class Tie:
 
 
 @dataclass(frozen=True)
-class Step:
-    """One stretch of a wire, from one meeting place to the next."""
+class Crossing:
+    """Where a wire passes over what already lies in the jig: `over` are numbers, its own for itself."""
 
-    number: int
-    start_mm: float
-    end_mm: float
-    action: str
-    arrival: str
+    at_mm: float
+    over: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class WireSheet:
-    """Everything about the making of one wire; `ties` are met in this order, at mm from the mark.
+class Step:
+    """One thing to do.
 
-    `same_as` says which other wire's form it is made on, if it has that one's shape; `hole` is the number at
-    the hole where it starts. `cautions` are what to do by hand where the jig alone doesn't do it.
+    Steps along a wire have its number, the span from `start_mm` to `end_mm` and the `moves` within; where
+    the same is done several times on end, all moves are of one step that says how many `times`. `walls` are
+    places among the bench's. `ties` are letters: those made now, or those that the wire passes.
     """
 
-    number: int
-    wire: Wire
-    thickness: str
-    tail_mm: float
-    jig: str
-    same_as: str
-    hole: int
-    overbend: str
+    kind: StepKind
+    heading: Text
+    texts: tuple[Text, ...]
+    cautions: tuple[Text, ...] = ()
+    wire: int = 0
+    start_mm: float = 0.0
+    end_mm: float = 0.0
+    moves: tuple[Move, ...] = ()
+    times: int = 1
+    walls: tuple[int, ...] = ()
+    crossings: tuple[Crossing, ...] = ()
+    ties: tuple[str, ...] = ()
+    figure: Figure | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Chapter:
+    """Steps that belong together, as those of one wire; `anchor` is unique within the guide."""
+
+    anchor: str
+    heading: Text
     steps: tuple[Step, ...]
-    cautions: tuple[str, ...]
-    ties: tuple[tuple[Tie, float], ...]
 
 
 @dataclass(frozen=True)
-class Placement:
-    """One stage of the assembly: lay this wire, then make these ties."""
+class StripMark:
+    """A mark on the ruler strip of a wire, in mm from the end that was cut.
+
+    A wrap has its step's number, a tie its letter; only wraps have an extent.
+    """
+
+    start_mm: float
+    end_mm: float
+    label: str
+    kind: Literal["start", "end", "wrap", "tie"]
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A strip at true size to lay a wire along before it is bent."""
 
     wire: int
-    joins: tuple[int, ...]
-    ties: tuple[Tie, ...]
+    cut_mm: float
+    marks: tuple[StripMark, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """A page before or after the steps."""
+
+    anchor: str
+    title: Text
+    blocks: tuple[Block, ...]
 
 
 @dataclass(frozen=True, eq=False)
 class Guide:
-    """The whole guide."""
+    """The whole guide: pages to get ready, then chapters of steps. `shared` are shapes of many pictures."""
 
     name: str
-    size_mm: tuple[float, float]
-    metal: str
-    temper: str
-    materials: tuple[Material, ...]
-    sheets: tuple[WireSheet, ...]
+    lead: Text
+    cover: Figure
+    pages: tuple[Page, ...]
+    chapters: tuple[Chapter, ...]
     ties: tuple[Tie, ...]
-    assembly: tuple[Placement, ...]
-    binding_turns: int
-    ring: JumpRing | None = None
-    seats: tuple[str, ...] = ()
-    """Each bead's size, where the jig holds beads or stones."""
+    strips: tuple[Strip, ...]
+    wires: tuple[Wire, ...]
+    shared: Mapping[str, tuple[Shape, ...]]
+    difficulty: Difficulty
+    minutes: float
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """All steps in the order of the work; they are numbered from 1."""
+        return tuple(step for chapter in self.chapters for step in chapter.steps)

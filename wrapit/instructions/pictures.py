@@ -1,100 +1,171 @@
-"""The guide's pictures: one drawing space for the whole piece, path data for each of its parts."""
+"""The guide's pictures: each jig from above with its wires, and the piece as it comes together."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.geometry import BezierChain
+from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.svgframe import SvgFrame, number
-from wrapit.instructions.model import Guide, Step
+from wrapit.geometry.outlines.loops import Region, circle
+from wrapit.instructions.model import Step, Tie
+from wrapit.jig.bench.from_above import LINE, bounds_of, framed, start_marks
+from wrapit.jig.bench.model import Bench
+from wrapit.pages.model import Figure, Mark, Picture, Point, Shape, Shared, Text, text
+from wrapit.wires.model import JumpRing, Wire
+
+# Widths of lines in shares of the text's height: of the present stretch, of its dark edge, of the arrow.
+PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
+# Length of an arrow's barbs, and how far each stands off the line.
+BARB, BARB_RAD = 0.75, 0.5
+# How finely wires are sampled where labels keep off them.
+SAMPLED_MM = 0.2
 
 
-@dataclass(frozen=True)
-class Mark:
-    """A lettered or numbered place on a picture, in its own millimetres."""
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What pictures show of wires in one place: a jig, or the bare piece where `bench` is None.
 
-    text: str
-    x: str
-    y: str
-    anchor_x: str
-    anchor_y: str
-    radius: str
+    `key` begins the keys of its shared shapes.
+    """
+
+    key: str
+    wires: tuple[Wire, ...]
+    bench: Bench | None
+    low: Point
+    high: Point
+    text_mm: float
+
+    @staticmethod
+    def of_bench(key: str, bench: Bench) -> Scene:
+        """A jig."""
+        return Scene(key, bench.wires, bench, *bounds_of(bench.plate))
+
+    @staticmethod
+    def of_piece(key: str, wires: Sequence[Wire], ties: Iterable[Tie] = ()) -> Scene:
+        """The wires as they are in the piece, with room for the letters of ties."""
+        cloud = np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in wires])
+        low, high, text_mm = framed(cloud, 1.0)
+        boxes = [low, high]
+        for label in tie_labels(ties, cloud, text_mm):
+            (x, y), (half_x, half_y) = label.centre, label.half_size
+            boxes += [(x - half_x, y - half_y), (x + half_x, y + half_y)]
+        low, high, text_mm = framed(np.array(boxes), 0.5 * text_mm)
+        return Scene(key, tuple(wires), None, low, high, text_mm)
+
+    @property
+    def shared(self) -> dict[str, tuple[Shape, ...]]:
+        """Its shapes that many pictures show: plate and walls as one, and each wire."""
+        wires: dict[str, tuple[Shape, ...]] = {
+            self.wire_key(wire.number): (Shape(chain_of(wire.centreline), "wire"),) for wire in self.wires
+        }
+        if self.bench is None:
+            return wires
+        walls = tuple(Shape(wall, "wall") for wall in self.bench.walls)
+        return {self.key: (Shape(self.bench.plate, "plate"), *walls), **wires}
+
+    def wire_key(self, number: int) -> str:
+        """Key of one wire's line."""
+        return f"{self.key}-{number}"
+
+    def line(self, wire: Wire, width: float = LINE) -> Shared:
+        """A wire in its colour."""
+        return Shared(self.wire_key(wire.number), "wire", wire.colour, width * self.text_mm)
+
+    def picture(self, shapes: Iterable[Shape | Shared], marks: Iterable[Mark] = ()) -> Picture:
+        """A picture in this scene."""
+        return Picture(self.low, self.high, self.text_mm, tuple(shapes), tuple(marks))
 
 
-@dataclass(frozen=True)
-class StepPicture:
-    """Path data of what is bent already, of the present stretch, and of an arrow at its end."""
+def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ties: Sequence[Mark]) -> Figure:
+    """A step along a wire: what lies already, what is bent now and which way, round which walls."""
+    chain = chain_of(wire.centreline)
+    end_mm = min(step.end_mm, chain.length)
+    start_mm = min(step.start_mm, end_mm - 1e-3)
+    now = piece(chain, max(0.0, start_mm), end_mm)
+    laid = set(earlier)
+    shapes: list[Shape | Shared] = []
+    if scene.bench is not None:
+        shapes.append(Shared(scene.key))
+        shapes += [Shape(scene.bench.walls[index], "wall-now") for index in step.walls]
+    shapes += [
+        Shared(scene.wire_key(each.number), "earlier", each.colour, LINE * scene.text_mm)
+        for each in scene.wires
+        if each.number in laid
+    ]
+    shapes.append(Shared(scene.wire_key(wire.number), "later", "", LINE * scene.text_mm))
+    if start_mm > 1e-3:
+        shapes.append(Shape(piece(chain, 0.0, start_mm), "earlier", wire.colour, LINE * scene.text_mm))
+    shapes += _present(now, wire.colour, scene.text_mm)
+    start = (float(chain.start[0]), float(chain.start[1]))
+    marks = [Mark(str(wire.number), start, "number")] if scene.bench is not None else [Mark("", start, "dot")]
+    words = text("picture-step", wire=wire.number, start=step.start_mm, end=step.end_mm)
+    return Figure(scene.picture(shapes, (*marks, *ties)), words)
 
-    done: str
-    present: str
-    arrow: str
+
+def _present(now: BezierChain, colour: str, text_mm: float) -> Iterator[Shape]:
+    """The stretch that is bent now, with a dark edge and an arrow at its end."""
+    yield Shape(now, "edge", "", EDGE * text_mm)
+    yield Shape(now, "present", colour, PRESENT * text_mm)
+    heading = math.atan2(*(float(value) for value in now.end_tangent[::-1]))
+    barbs = [
+        now.end - BARB * text_mm * np.array([math.cos(heading + turn), math.sin(heading + turn)])
+        for turn in (BARB_RAD, -BARB_RAD)
+    ]
+    yield Shape(np.array([barbs[0], now.end, barbs[1]]), "arrow", "", ARROW * text_mm)
 
 
-class Pictures:
-    """Every picture of a guide, in one frame around the piece."""
+def piece_figure(
+    scene: Scene,
+    words: Text,
+    *,
+    laid: Iterable[int],
+    now: Iterable[int] = (),
+    marks: Iterable[Mark] = (),
+    ring: JumpRing | None = None,
+    caption: Text | None = None,
+) -> Figure:
+    """The piece with the wires that lie already, and those that are laid or tied now."""
+    present, lying = set(now), set(laid)
+    shapes: list[Shape | Shared] = []
+    for wire in scene.wires:
+        if wire.number in present:
+            shapes.append(Shared(scene.wire_key(wire.number), "edge", "", EDGE * scene.text_mm))
+            shapes.append(
+                Shared(scene.wire_key(wire.number), "present", wire.colour, PRESENT * scene.text_mm)
+            )
+        elif wire.number in lying:
+            shapes.append(scene.line(wire))
+        else:
+            shapes.append(Shared(scene.wire_key(wire.number), "later", "", LINE * scene.text_mm))
+    if ring is not None:
+        middle = (ring.inner_diameter_mm + ring.diameter_mm) / 2
+        shapes.append(Shape(Region(circle(ring.point, middle)), "ring", "", ring.diameter_mm))
+    return Figure(scene.picture(shapes, marks), words, caption)
 
-    def __init__(self, guide: Guide) -> None:
-        self._chains = {sheet.number: chain_of(sheet.wire.centreline) for sheet in guide.sheets}
-        cloud = np.vstack([chain.sampled(0.2) for chain in self._chains.values()])
-        low, high = cloud.min(axis=0), cloud.max(axis=0)
-        # Text is set in shares of the picture, so that it reads the same on every size of piece.
-        self.text_mm = float(np.max(high - low)) / 16
-        labels = place_labels(
-            [(tie.letter, np.array([tie.point])) for tie in guide.ties], cloud, self.text_mm
-        )
-        starts = place_labels(
-            [(str(key), chain.start[None]) for key, chain in self._chains.items()],
-            cloud,
-            self.text_mm,
-            labels,
-        )
-        boxes = np.array([[*label.centre, *label.half_size] for label in (*labels, *starts)]).reshape(-1, 4)
-        low = np.vstack([low, boxes[:, :2] - boxes[:, 2:]]).min(axis=0)
-        high = np.vstack([high, boxes[:, :2] + boxes[:, 2:]]).max(axis=0)
-        self.frame = SvgFrame.around(low, high, 0.3 * self.text_mm)
-        self.ties = tuple(self._mark(label) for label in labels)
-        self.starts = tuple(self._mark(label) for label in starts)
-        self.ring = self._ring(guide)
-        self.shapes = {key: self.frame.path(chain) for key, chain in self._chains.items()}
 
-    def _ring(self, guide: Guide) -> tuple[str, str, str] | None:
-        """Middle and radius of the jump ring's mark."""
-        if guide.ring is None:
-            return None
-        x, y = self.frame.at(np.array(guide.ring.point))
-        return number(x), number(y), number((guide.ring.inner_diameter_mm + guide.ring.diameter_mm) / 2)
+def cover_figure(scene: Scene, words: Text, caption: Text, ring: JumpRing | None) -> Figure:
+    """The finished piece, each wire in its colour with its number where it starts."""
+    everything = [wire.number for wire in scene.wires]
+    return piece_figure(
+        scene, words, laid=everything, marks=start_marks(scene.wires), ring=ring, caption=caption
+    )
 
-    def start_of(self, wire: int) -> tuple[str, str]:
-        """Where a wire starts, on the page."""
-        x, y = self.frame.at(self._chains[wire].start)
-        return number(x), number(y)
 
-    def step(self, wire: int, step: Step) -> StepPicture:
-        """One stretch of a wire, and what is bent before it."""
-        chain = self._chains[wire]
-        end_mm = min(step.end_mm, chain.length)
-        present = piece(chain, step.start_mm, end_mm)
-        done = self.frame.path(piece(chain, 0.0, step.start_mm)) if step.start_mm > 1e-6 else ""
-        return StepPicture(done, self.frame.path(present), self._arrow(present))
+def tie_labels(ties: Iterable[Tie], cloud: FloatArray, text_mm: float) -> tuple[Label, ...]:
+    """Places for the letters of ties, clear of the wires (n, 2)."""
+    return place_labels([(tie.letter, np.array([tie.point])) for tie in ties], cloud, 1.25 * text_mm)
 
-    def _arrow(self, chain: BezierChain) -> str:
-        """A barbed head at the end of the stretch."""
-        size = 0.55 * self.text_mm
-        heading = math.atan2(*(float(value) for value in chain.end_tangent[::-1]))
-        tips = [
-            chain.end - size * np.array([math.cos(heading + turn), math.sin(heading + turn)])
-            for turn in (0.5, -0.5)
-        ]
-        return self.frame.polyline(np.array([tips[0], chain.end, tips[1]]))
 
-    def _mark(self, label: Label) -> Mark:
-        x, y = self.frame.at(label.centre)
-        anchor_x, anchor_y = self.frame.at(label.anchor)
-        radius = number(0.62 * self.text_mm + 0.12 * self.text_mm * (len(label.text) - 1))
-        return Mark(label.text, number(x), number(y), number(anchor_x), number(anchor_y), radius)
+def tie_marks(scene: Scene, ties: Sequence[Tie]) -> Mapping[str, Mark]:
+    """The mark of each tie by its letter, with a leader to its place."""
+    cloud = np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in scene.wires])
+    return {
+        label.text: Mark(label.text, label.centre, "tie", label.anchor)
+        for label in tie_labels(ties, cloud, scene.text_mm)
+    }

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Final
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
 from wrapit.geometry import FloatArray, Region
+from wrapit.jig.bench.model import Handling
 from wrapit.jig.contours import FlatDrawing
-from wrapit.jig.model import Part, SameShape
+from wrapit.jig.model import Part
+from wrapit.pages.model import Block, Text
 from wrapit.wires.model import Wire
 
 Wires = tuple[Wire, ...]
@@ -33,30 +35,6 @@ class View:
     plate_mm: float = 0.0
 
 
-@dataclass(frozen=True)
-class Handling:
-    """What the steps of the guide say of a jig: in which one each wire is bent, and what else to mind.
-
-    `jig_of` has the jig's name by the wire's; `same_as` has, for a wire that is bent in another's place as it
-    has its shape, that wire and whether it is turned over then; `seats_mm` are the beads that go into seats
-    first.
-    """
-
-    jig_of: Mapping[str, str]
-    same_as: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
-    overbent: bool = False
-    seats_mm: tuple[float, ...] = ()
-
-
-def handled_in(jig_of: Mapping[str, str], forms: Iterable[SameShape]) -> Handling:
-    """How wires are handled that lie in these jigs, and those that have the shape of one."""
-    forms = tuple(forms)
-    return Handling(
-        jig_of={**jig_of, **{form.wire: jig_of[form.like] for form in forms}},
-        same_as={form.wire: (form.like, form.mirrored) for form in forms},
-    )
-
-
 # What the names of files of the other earring end in.
 MIRRORED: Final = "-mirrored"
 
@@ -68,12 +46,11 @@ def file_stem(name: str, count: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class GuidePage:
-    """A page of the guide about a jig: its template, below `wrapit/jig`, and what that shows."""
+    """A page of the guide about a jig: what to print, cut, glue or set, before wires are bent."""
 
     anchor: str
-    title: str
-    template: str
-    data: Any
+    title: Text
+    blocks: tuple[Block, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +58,7 @@ class Made:
     """A finished jig.
 
     `block` and `numbers` are its part of the report. `parts` are solids, one a printable body, `drawings`
-    flat files. `views` show it from above, `handling` is None where wires aren't held in start holes.
+    flat files. `views` show it from above, `handling` says what lies where for the steps of the guide.
     """
 
     block: str

@@ -155,11 +155,15 @@ def straying(laid: Iterable[Course]) -> tuple[FloatArray, ...]:
 
 @dataclass(frozen=True)
 class SameShape:
-    """A wire that has the shape of another, `like`; `mirrored`: once it is turned over."""
+    """A wire that has the shape of another, `like`; `mirrored`: once it is turned over.
+
+    `reversed` says that its end lies where the other starts.
+    """
 
     wire: str
     like: str
     mirrored: bool
+    reversed: bool = False
 
 
 @dataclass(frozen=True, eq=False)

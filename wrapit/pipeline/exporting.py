@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from wrapit.config import Config
-from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.jig.made import Made
 from wrapit.pipeline.textfile import write_text
@@ -39,28 +38,28 @@ def write_drawings(folder: Path, made: Made, config: Config) -> None:
 
 def write_guide(
     folder: Path,
-    solution: Solution,
     wires: Sequence[Wire],
     jigs: Sequence[Made],
+    mirrored: Made | None,
     ring: JumpRing | None,
     config: Config,
 ) -> None:
-    """`guide.html`; its steps speak of the first jig that holds wires."""
-    from wrapit.instructions.stage import write_instructions
+    """`guide.html`, `guide.pdf`; the steps are those of the first jig, the other's of its mirror image."""
+    from wrapit.instructions.plan import Held, plan_guide
+    from wrapit.instructions.stage import write_page
 
-    held_in = next((made for made in jigs if made.handling is not None), None)
-    page = write_instructions(
-        solution,
+    guide = plan_guide(
         wires,
         config.guide,
         config.wire,
         name=config.name,
-        handling=held_in.handling if held_in is not None else None,
-        findings=held_in.findings if held_in is not None else (),
+        held=Held(jigs[0].handling, jigs[0].findings),
+        other=Held(mirrored.handling, mirrored.findings) if mirrored is not None else None,
         pages=[made.page for made in jigs if made.page is not None],
         ring=ring,
     )
-    write_text(folder / "guide.html", page)
+    if "html" in config.outputs:
+        write_text(folder / "guide.html", write_page(guide, config.guide))
 
 
 def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: int) -> None:

@@ -127,8 +127,8 @@ def _export(work: Work, worker: Worker | None, folder: Path) -> None:
             write_views(folder, work.wires, jigs[0])
             for made in jigs:
                 write_drawings(folder, made, work.config)
-            if "html" in work.config.outputs:
-                write_guide(folder, work.solution, work.wires, jigs, work.ring, work.config)
+            if {"html", "pdf"} & set(work.config.outputs):
+                write_guide(folder, work.wires, jigs, work.mirrored, work.ring, work.config)
         if work.mirrored is not None:
             with wires_beside(work, worker, folder, MIRRORED):
                 write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)

@@ -28,9 +28,9 @@ def same_shapes(wires: Sequence[Wire]) -> tuple[SameShape, ...]:
     firsts: list[int] = []
     for index, wire in enumerate(wires):
         for first in firsts:
-            mirrored = _laid_upon(wires[first], places[first], wire, places[index])
-            if mirrored is not None:
-                alike.append(SameShape(wire.name, wires[first].name, mirrored))
+            way = _laid_upon(wires[first], places[first], wire, places[index])
+            if way is not None:
+                alike.append(SameShape(wire.name, wires[first].name, *way))
                 break
         else:
             firsts.append(index)
@@ -43,15 +43,16 @@ def _places(wire: Wire) -> FloatArray:
     return np.asarray(points - points.mean(axis=0))
 
 
-def _laid_upon(first: Wire, there: FloatArray, wire: Wire, here: FloatArray) -> bool | None:
-    """Whether the wire has to be turned over to lie upon the first; None where it never does."""
+def _laid_upon(first: Wire, there: FloatArray, wire: Wire, here: FloatArray) -> tuple[bool, bool] | None:
+    """Whether the wire lies upon the first turned over, and end for end; None if it never does."""
     if abs(first.length_mm - wire.length_mm) > APART_MM or (first.bail is None) != (wire.bail is None):
         return None
-    ways = [here, here[::-1]] if first.bail is None else [here]
+    ways = [(False, here), (True, here[::-1])] if first.bail is None else [(False, here)]
     for mirrored in (False, True):
         flip = np.array([-1.0, 1.0]) if mirrored else np.ones(2)
-        if any(_apart(there, way * flip) <= APART_MM for way in ways):
-            return mirrored
+        for backwards, way in ways:
+            if _apart(there, way * flip) <= APART_MM:
+                return mirrored, backwards
     return None
 
 

@@ -10,9 +10,10 @@ from wrapit.config import Config
 from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle, rounded_rectangle
+from wrapit.jig.bench.model import Bench, Contact, Handling
 from wrapit.jig.channel import Channels
-from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires, reported
-from wrapit.jig.pegs.board_page import plan_peg_page
+from wrapit.jig.made import JigMaker, Made, View, Wires, reported
+from wrapit.jig.pegs.board_page import peg_page
 from wrapit.jig.pegs.drawing import board_drawing
 from wrapit.jig.pegs.model import Peg, PegPlan, hole_name
 from wrapit.jig.pegs.placing import place_pegs
@@ -26,23 +27,41 @@ def make(wires: Wires, config: Config) -> Made:
             f"pegs would hold {math.floor(100 * plan.held_share)}% of the turns, "
             f"less than jig.least_support ({config.jig.least_support:.0%})"
         )
-    board = plan.board
-    discs = tuple(Region(circle(board.place(peg.cell), peg.diameter_mm / 2)) for peg in plan.pegs)
+    bench = _bench(plan, wires)
+    kinds = [kind for kind in ("dxf", "svg") if kind in config.outputs]
     return Made(
         block="pegs",
         numbers=_numbers(plan),
         findings=_findings(plan, config),
         drawings=(board_drawing(plan, wires),),
-        views=(View("preview", wires, discs, Region(rounded_rectangle(*board.corners, 3.0))),),
-        page=GuidePage(
-            "pegs", "Set up the board with pegs", "pegs/page.html.jinja", plan_peg_page(plan, wires)
-        ),
+        views=(View("preview", wires, bench.walls, bench.plate),),
+        handling=Handling((bench,)),
+        page=peg_page(plan, bench, [f"pegs.{kind}" for kind in kinds]),
     )
 
 
 def held(wires: Wires, config: Config) -> float:
     """The share of the turns' length that would follow a peg."""
     return _plan(wires, config).held_share
+
+
+def _bench(plan: PegPlan, wires: Wires) -> Bench:
+    """The board with its pegs, and the turns that each wire makes round them."""
+    board = plan.board
+    round_pegs: dict[str, list[Contact]] = {wire.name: [] for wire in wires}
+    for index, peg in enumerate(plan.pegs):
+        name = hole_name(peg.cell)
+        for turn, _ in peg.turns:
+            contact = Contact(turn.start_mm, turn.end_mm, turn.inside, "peg", index, name, peg.diameter_mm)
+            round_pegs[turn.wire].append(contact)
+    return Bench(
+        "board",
+        wires,
+        tuple(Region(circle(board.place(peg.cell), peg.diameter_mm / 2)) for peg in plan.pegs),
+        Region(rounded_rectangle(*board.corners, 3.0)),
+        {name: tuple(sorted(found, key=lambda each: each.start_mm)) for name, found in round_pegs.items()},
+        anchored=False,
+    )
 
 
 def _plan(wires: Wires, config: Config) -> PegPlan:

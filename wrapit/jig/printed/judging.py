@@ -30,10 +30,11 @@ def judged(made: Made, wires: Wires, config: Config) -> Made:
     """
     assert made.handling is not None
     total, findings = 0.0, []
+    jig_of = {wire.name: bench.name for bench in made.handling.benches for wire in bench.wires}
     for wire in wires:
-        if wire.name not in made.handling.jig_of or wire.name in made.handling.same_as:
+        if wire.name not in jig_of:
             continue  # nothing of it is bent, or it is bent in another's place: no jig is made round it
-        part = next(part for part in made.parts if part.name == made.handling.jig_of[wire.name])
+        part = next(part for part in made.parts if part.name == jig_of[wire.name])
         base_mm = config.jig.base_thickness
         gap_mm = min(config.jig.inside_gap, config.jig.clearance)
         # The wire as it lies, over others too; and its channel, as a wire as thick as that along the plate.

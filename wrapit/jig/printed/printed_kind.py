@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.jig.made import GuidePage, Handling, JigMaker, Made, View, Wires, handled_in
+from wrapit.jig.bench.model import Bench, Handling
+from wrapit.jig.bench.touching import bench_of
+from wrapit.jig.channel import Channels
+from wrapit.jig.made import JigMaker, Made, View, Wires
 from wrapit.jig.model import Jig, JigSet, straying
 from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
 from wrapit.jig.printed.judging import judged
-from wrapit.jig.printed.printing_page import plan_print_page
+from wrapit.jig.printed.printing_page import print_page
 from wrapit.jig.support import held_share
 
 if TYPE_CHECKING:
@@ -39,16 +41,15 @@ def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, con
     from wrapit.jig.printed.stage import build_planned
 
     jigs, more = build_planned(planned, config.jig)
+    held = handling(jigs, wires, config)
     return Made(
         block="jig",
         numbers=jig_numbers(jigs, wires),
         findings=(*findings, *more),
         parts=tuple(jig.part for jig in jigs.jigs),
         views=_views(jigs, wires),
-        handling=handling(jigs),
-        page=GuidePage(
-            "print", "Print the jig", "printed/page.html.jinja", plan_print_page(jigs, wires, config)
-        ),
+        handling=held,
+        page=print_page(jigs, held.benches, config),
     )
 
 
@@ -59,12 +60,25 @@ def held(wires: Wires, config: Config) -> float:
     return held_share(one for jig in plan_jigs(wires, config.jig)[0].jigs for one in jig.held)
 
 
-def handling(jigs: JigSet) -> Handling:
-    """What the guide's steps say of these jigs."""
-    return dataclasses.replace(
-        handled_in({wire: jig.name for jig in jigs.jigs for wire in jig.wires}, jigs.forms),
-        overbent=jigs.overbent,
-        seats_mm=tuple(seat.bead_mm for jig in jigs.jigs for seat in jig.plan.seats),
+def handling(jigs: JigSet, wires: Wires, config: Config) -> Handling:
+    """What lies where in these jigs, for the guide's steps."""
+    return Handling(
+        tuple(_bench(jig, wires, config) for jig in jigs.jigs), jigs.forms, overbent=jigs.overbent
+    )
+
+
+def _bench(jig: Jig, wires: Wires, config: Config) -> Bench:
+    mine = [wire for wire in wires if wire.name in jig.wires]
+    labelled = {label.text for label in jig.plan.labels}
+    return bench_of(
+        jig.name,
+        mine,
+        jig.walls,
+        jig.plate,
+        jig.plan.pins,
+        Channels.of(tuple(mine), config.jig).reach_mm,
+        unmarked=[wire.name for wire in mine if str(wire.number) not in labelled],
+        seats_mm=[seat.bead_mm for seat in jig.plan.seats],
     )
 
 

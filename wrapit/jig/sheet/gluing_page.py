@@ -1,44 +1,39 @@
-"""The page that says how to glue the laser-cut jig together."""
+"""The page of the guide that says how to cut the laser-cut jig and glue it together."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from wrapit.geometry import Region
 from wrapit.geometry.bspline import chain_of
-from wrapit.geometry.svgframe import SvgFrame, number
+from wrapit.jig.bench.from_above import LINE, bounds_of
+from wrapit.jig.bench.pin_list import pin_blocks
+from wrapit.jig.made import GuidePage
 from wrapit.jig.sheet.model import LaserJig, LaserPart
+from wrapit.pages.model import (
+    Block,
+    Caution,
+    Figure,
+    Heading,
+    Length,
+    Mark,
+    Paragraph,
+    Picture,
+    Points,
+    Shape,
+    Style,
+    Table,
+    Text,
+    listed,
+    text,
+)
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
     from shapely import Polygon
-
-
-@dataclass(frozen=True)
-class SheetLine:
-    """One sheet to cut: `parts` are its labels in order."""
-
-    number: int
-    thickness_mm: float
-    size_mm: tuple[float, float]
-    parts: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class MapPart:
-    """A part on the map of a stack: path data, its label and where that stands."""
-
-    label: str
-    role: str
-    path: str
-    x: str
-    y: str
-    text_mm: str
 
 
 @dataclass(frozen=True)
@@ -50,68 +45,81 @@ class GluedGroup:
     labels: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class StackPage:
-    """How one stack is glued, group by group from the outside to the inside."""
-
-    jig: str
-    bottom: str
-    plate: str
-    copies: int
-    groups: tuple[GluedGroup, ...]
-    view_box: str
-    parts: tuple[MapPart, ...]
-    wires: tuple[tuple[str, str], ...]
+def gluing_page(laser: LaserJig, files: Mapping[int, Sequence[str]], *, pair: bool) -> GuidePage:
+    """What the guide says of this jig, stack by stack; `files` has those of each sheet by its number."""
+    blocks: list[Block] = [Paragraph(text("glue-how")), _sheets(laser, files), Paragraph(text("glue-leave"))]
+    if pair:
+        blocks.append(Caution(text("glue-pair")))
+    stacks = [(jig, tuple(parts)) for jig, parts in itertools.groupby(laser.parts, lambda part: part.jig)]
+    for jig, parts in stacks:
+        blocks += _stack(jig, parts, laser, alone=len(stacks) == 1)
+    return GuidePage("laser", text("glue-title"), (*blocks, *pin_blocks(laser.pins)))
 
 
-@dataclass(frozen=True)
-class LaserPage:
-    """The whole page; `pins` are (wire, at mm, diameter)."""
-
-    sheets: tuple[SheetLine, ...]
-    stacks: tuple[StackPage, ...]
-    wall_height_mm: float
-    pins: tuple[tuple[str, float, float], ...]
-
-
-def plan_laser_page(laser: LaserJig) -> LaserPage:
-    """What the page says and shows, for every stack of the jig."""
-    stacks = [
-        _stack(jig, list(parts), laser.laid[jig])
-        for jig, parts in itertools.groupby(laser.parts, lambda part: part.jig)
-    ]
-    sheets = [
-        SheetLine(
-            sheet.number,
-            sheet.thickness_mm,
-            (sheet.width_mm, sheet.height_mm),
-            tuple(dict.fromkeys(placed.part.label for placed in sheet.placed)),
+def _sheets(laser: LaserJig, files: Mapping[int, Sequence[str]]) -> Table:
+    head = tuple(text(f"glue-head-{each}") for each in ("sheet", "thickness", "size", "parts", "file"))
+    rows = []
+    for sheet in laser.sheets:
+        labels = dict.fromkeys(placed.part.label for placed in sheet.placed)
+        mine = files.get(sheet.number, ())
+        rows.append(
+            (
+                text("number", value=sheet.number),
+                text("length", value=Length(sheet.thickness_mm)),
+                text("size-flat", x=Length(sheet.width_mm), y=Length(sheet.height_mm)),
+                text("plain", value=", ".join(labels)),
+                text("file-one-of", files=listed(mine)) if mine else text("file-none-flat"),
+            )
         )
-        for sheet in laser.sheets
-    ]
-    pins = [(pin.turn.wire, (pin.turn.start_mm + pin.turn.end_mm) / 2, pin.diameter_mm) for pin in laser.pins]
-    return LaserPage(tuple(sheets), tuple(stacks), laser.wall_height_mm, tuple(pins))
+    return Table(text("glue-sheets"), head, tuple(rows))
 
 
-def _stack(jig: str, parts: Sequence[LaserPart], wires: Sequence[Wire]) -> StackPage:
+def _stack(jig: str, parts: Sequence[LaserPart], laser: LaserJig, *, alone: bool) -> Iterator[Block]:
     bottom, plate = (next(part for part in parts if part.role == role) for role in ("bottom", "pocket plate"))
     inlays = [part for part in parts if part.role in ("wall", "island")]
-    outline = plate.shape.outer.sampled(0.1)
-    frame = SvgFrame.around(outline.min(axis=0), outline.max(axis=0), 1.0)
-    text_mm = float(np.ptp(outline, axis=0).max()) / 36
-    return StackPage(
-        jig=jig,
-        bottom=bottom.label,
-        plate=plate.label,
-        copies=max(part.copies for part in parts),
-        groups=_gluing_order(inlays),
-        view_box=frame.view_box,
-        parts=tuple(_on_map(part, frame, text_mm) for part in (plate, *inlays)),
-        wires=tuple((frame.path(chain_of(wire.centreline)), wire.colour) for wire in wires),
+    wires = laser.laid[jig]
+    if not alone:
+        numbers = listed(wire.number for wire in wires)
+        yield Heading(text("jig-for", jig=jig, wires=numbers, count=len(wires)))
+    yield Figure(_map(plate, inlays, wires), text("glue-picture", jig=jig), text("glue-caption"))
+    copies = max(part.copies for part in parts)
+    steps = [text("glue-bottom", part=bottom.label), text("glue-plate", part=plate.label)]
+    steps += [_glued(group, copies) for group in gluing_order(inlays)]
+    steps.append(text("glue-dry", height=Length(laser.wall_height_mm)))
+    yield Points(tuple(steps), numbered=True)
+
+
+def _glued(group: GluedGroup, copies: int) -> Text:
+    """`Glue wall pieces 3 and 4, number up, into their pockets.`"""
+    return text(
+        "glue-island" if group.role == "island" else "glue-wall",
+        parts=listed(group.labels),
+        count=len(group.labels),
+        where="in" if group.inside else "plate",
+        inside=group.inside,
+        copies=copies,
+        more=copies - 1,
     )
 
 
-def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[GluedGroup, ...]:
+def _map(plate: LaserPart, inlays: Sequence[LaserPart], wires: Sequence[Wire]) -> Picture:
+    """Where each piece goes; plate and islands are drawn as outlines, for pockets show where pieces go."""
+    from shapely import maximum_inscribed_circle
+
+    low, high, text_mm = bounds_of(plate.shape)
+    shapes = [Shape(Region(plate.shape.outer), "plate")]
+    marks = []
+    for part in inlays:
+        style: Style = "plate" if part.role == "island" else "wall"
+        shapes.append(Shape(part.shape, style))
+        widest = maximum_inscribed_circle(_polygon(part.shape), 0.05)
+        x, y = widest.coords[0]
+        marks.append(Mark(part.label, (float(x), float(y)), "bare"))
+    lines = [Shape(chain_of(wire.centreline), "wire", wire.colour, LINE * text_mm) for wire in wires]
+    return Picture(low, high, text_mm, (*shapes, *lines), tuple(marks))
+
+
+def gluing_order(inlays: Sequence[LaserPart]) -> tuple[GluedGroup, ...]:
     """Parts that lie in nothing but the plate first, then those in their rings, and so on."""
     from shapely import Polygon
 
@@ -135,17 +143,6 @@ def _gluing_order(inlays: Sequence[LaserPart]) -> tuple[GluedGroup, ...]:
         GluedGroup(role, where, tuple(part.label for part in parts))
         for (role, where), parts in itertools.groupby(ordered, place)
     )
-
-
-def _on_map(part: LaserPart, frame: SvgFrame, text_mm: float) -> MapPart:
-    from shapely import maximum_inscribed_circle
-
-    # Island and plate are drawn as outlines only; the pockets show where the pieces go.
-    shape = Region(part.shape.outer) if part.role == "pocket plate" else part.shape
-    widest = maximum_inscribed_circle(_polygon(shape), 0.05)
-    x, y = frame.at(widest.coords[0])
-    fitting_mm = min(text_mm, 1.5 * widest.length)
-    return MapPart(part.label, part.role, frame.region(shape), number(x), number(y), number(fitting_mm))
 
 
 def _polygon(region: Region) -> Polygon:

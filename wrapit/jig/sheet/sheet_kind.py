@@ -6,7 +6,11 @@ from typing import Final
 
 from wrapit.config import Config
 from wrapit.errors import Finding
-from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires, handled_in
+from wrapit.jig.bench.model import Bench, Handling
+from wrapit.jig.bench.touching import bench_of
+from wrapit.jig.channel import Channels
+from wrapit.jig.made import JigMaker, Made, View, Wires
+from wrapit.jig.sheet.drawings import sheet_drawings, sheet_name
 from wrapit.jig.sheet.model import LaserJig
 from wrapit.jig.sheet.sheet_numbers import plate_numbers
 from wrapit.jig.support import held_share
@@ -30,8 +34,7 @@ SEATS_PRINTED: Final = Finding(
 
 def make(wires: Wires, config: Config) -> Made:
     """The laser-cut jig of a piece; see `JigMaker`."""
-    from wrapit.jig.sheet.drawings import sheet_drawings
-    from wrapit.jig.sheet.gluing_page import plan_laser_page
+    from wrapit.jig.sheet.gluing_page import gluing_page
     from wrapit.jig.sheet.stage import build_laser_jig
 
     laser, findings = build_laser_jig(wires, config.jig, config.plate)
@@ -46,10 +49,8 @@ def make(wires: Wires, config: Config) -> Made:
         findings=tuple(said),
         drawings=sheet_drawings(laser),
         views=_views(laser, wires),
-        handling=handled_in(
-            {wire.name: name for name, mine in laser.laid.items() for wire in mine}, laser.forms
-        ),
-        page=GuidePage("laser", "Glue the laser-cut jig", "sheet/page.html.jinja", plan_laser_page(laser)),
+        handling=_handling(laser, config),
+        page=gluing_page(laser, _files(laser, config), pair=config.pair),
     )
 
 
@@ -59,6 +60,30 @@ def held(wires: Wires, config: Config) -> float:
 
     plans, _, _ = plan_stacks(wires, config.jig, config.plate)
     return held_share(one for plan in plans.values() for one in plan.held)
+
+
+def _files(laser: LaserJig, config: Config) -> dict[int, tuple[str, ...]]:
+    """Of each sheet by its number, the files that a laser takes."""
+    kinds = [kind for kind in ("dxf", "svg") if kind in config.outputs]
+    return {sheet.number: tuple(f"{sheet_name(sheet)}.{kind}" for kind in kinds) for sheet in laser.sheets}
+
+
+def _handling(laser: LaserJig, config: Config) -> Handling:
+    """What lies where in each stack, for the guide's steps."""
+    return Handling(tuple(_bench(laser, name, config) for name in laser.laid), laser.forms)
+
+
+def _bench(laser: LaserJig, name: str, config: Config) -> Bench:
+    wires = laser.laid[name]
+    parts = [part for part in laser.parts if part.jig == name]
+    return bench_of(
+        name,
+        wires,
+        [part.shape for part in parts if part.role == "wall"],
+        next(part for part in parts if part.role == "bottom").shape,
+        [pin for pin in laser.pins if pin.turn.wire in {wire.name for wire in wires}],
+        Channels.of(wires, config.jig).reach_mm,
+    )
 
 
 def _views(laser: LaserJig, wires: Wires) -> tuple[View, ...]:

@@ -4,9 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from wrapit.instructions.model import Placement, Tie
+from wrapit.instructions.model import Tie
 from wrapit.wires.model import Wire
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One stage of the assembly: lay these wires, which meet those that lie there, then make these ties."""
+
+    wires: tuple[int, ...]
+    joins: tuple[int, ...]
+    ties: tuple[Tie, ...]
+
 
 # Both tails of the binding wire, to hold and pull tight, 4 cm each.
 TAILS_MM = 80.0
@@ -44,26 +55,30 @@ def find_ties(wires: Sequence[Wire], binding_mm: float, turns: int) -> tuple[Tie
     )
 
 
-def assembly_order(wires: Sequence[Wire], ties: Sequence[Tie]) -> tuple[Placement, ...]:
-    """The longest wire first, then always the one with most ties to those in place.
+def assembly_order(groups: Sequence[Sequence[Wire]], ties: Sequence[Tie]) -> tuple[Placement, ...]:
+    """The group with the longest wire first, then always the one with most ties to those in place.
 
-    Each tie is made as soon as its last wire lies; equal candidates go by their number.
+    A group is what comes out of a jig at once. Each tie is made as soon as its last wire lies; equal
+    candidates go by their longest wire, then by their order.
     """
-    waiting = list(range(1, len(wires) + 1))
-    placed: list[int] = []
+    waiting = list(groups)
+    placed: set[int] = set()
     placements = []
     while waiting:
-        best = max(waiting, key=lambda number: (_joints(number, placed, ties), wires[number - 1].length_mm))
+        best = max(waiting, key=lambda group: (_joints(group, placed, ties), max(w.length_mm for w in group)))
         waiting.remove(best)
-        placed.append(best)
-        ready = tuple(tie for tie in ties if best in tie.wires and set(tie.wires) <= set(placed))
-        joins = {other for tie in ties if best in tie.wires for other in tie.wires if other in placed}
-        placements.append(Placement(best, tuple(sorted(joins - {best})), ready))
+        mine = {wire.number for wire in best}
+        before = frozenset(placed)
+        placed |= mine
+        ready = tuple(tie for tie in ties if mine & set(tie.wires) and set(tie.wires) <= placed)
+        joins = {other for tie in ties if mine & set(tie.wires) for other in tie.wires if other in before}
+        placements.append(Placement(tuple(sorted(mine)), tuple(sorted(joins)), ready))
     return tuple(placements)
 
 
-def _joints(number: int, placed: Sequence[int], ties: Sequence[Tie]) -> int:
-    return sum(number in tie.wires and any(other in placed for other in tie.wires) for tie in ties)
+def _joints(group: Sequence[Wire], placed: set[int], ties: Sequence[Tie]) -> int:
+    mine = {wire.number for wire in group}
+    return sum(bool(mine & set(tie.wires)) and bool(placed & set(tie.wires)) for tie in ties)
 
 
 def _letter(index: int) -> str:

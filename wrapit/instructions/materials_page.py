@@ -1,0 +1,132 @@
+"""What to have at hand: metal by thickness, the cut list, tools, and how hard and long the work is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from wrapit.config import GuideConfig, WireConfig
+from wrapit.instructions.model import Chapter, Difficulty, Page, Step, Tie
+from wrapit.jig.bench.model import Bench
+from wrapit.materials import METALS
+from wrapit.pages.model import (
+    Block,
+    Duration,
+    Facts,
+    Length,
+    Mass,
+    Points,
+    Table,
+    Text,
+    Thickness,
+    listed,
+    text,
+)
+from wrapit.wires.model import JumpRing, Wire
+
+# How long hands take, in minutes: to get ready, to cut and begin a wire, for a step along it, a tie, a tail.
+# A rule of thumb: the paper's participants made pieces of four to six wires within half an hour.
+READY_MIN, WIRE_MIN, STEP_MIN, TIE_MIN, TAIL_MIN = 4.0, 1.5, 0.5, 2.0, 0.5
+# From so many steps and ties on a piece asks for patience, and from so many for experience.
+MEDIUM_STEPS: Final = 25
+HARD_STEPS: Final = 80
+# From so many places that need a hand's help on, it asks for experience too.
+HARD_CAUTIONS: Final = 6
+
+
+def materials_page(
+    wires: Sequence[Wire],
+    ties: Sequence[Tie],
+    ring: JumpRing | None,
+    guide: GuideConfig,
+    wire_config: WireConfig,
+    *,
+    pieces: int,
+    benches: Sequence[Bench],
+    effort: tuple[Difficulty, float],
+) -> Page:
+    """For so many `pieces` (two are a pair)."""
+    difficulty, minutes = effort
+    facts = (
+        (text("fact-difficulty"), text(f"difficulty-{difficulty}")),
+        (text("fact-time"), text("time-about", time=Duration(minutes))),
+    )
+    blocks: tuple[Block, ...] = (
+        _materials(wires, ties, ring, guide, wire_config, pieces),
+        _cut_list(wires, pieces),
+        Points(tuple(_tools(benches))),
+        Facts(facts),
+    )
+    return Page("materials", text("materials-title"), blocks)
+
+
+def effort_of(
+    chapters: Sequence[Chapter], wires: Sequence[Wire], ties: Sequence[Tie]
+) -> tuple[Difficulty, float]:
+    """How hard the work is, and about how many minutes it takes."""
+    steps = [step for chapter in chapters for step in chapter.steps]
+    along = sum(step.times for step in steps if step.wire)
+    tails = 2 * len(wires)
+    minutes = READY_MIN + WIRE_MIN * len(wires) + STEP_MIN * along + TIE_MIN * len(ties) + TAIL_MIN * tails
+    return _difficulty(steps, along + len(ties)), minutes
+
+
+def _difficulty(steps: Sequence[Step], amount: int) -> Difficulty:
+    cautions = sum(len(step.cautions) for step in steps)
+    if amount >= HARD_STEPS or cautions >= HARD_CAUTIONS:
+        return "hard"
+    return "medium" if amount >= MEDIUM_STEPS else "easy"
+
+
+def _materials(
+    wires: Sequence[Wire],
+    ties: Sequence[Tie],
+    ring: JumpRing | None,
+    guide: GuideConfig,
+    wire_config: WireConfig,
+    pieces: int,
+) -> Table:
+    metal, name = METALS[wire_config.metal], text(f"metal-{wire_config.metal.replace(' ', '-')}")
+    temper = text(f"temper-{wire_config.temper.replace(' ', '-')}")
+    rows = []
+
+    def add(what: Text, diameter_mm: float, length_mm: float) -> None:
+        total_mm = pieces * length_mm
+        mass = Mass(metal.mass_g(total_mm, diameter_mm))
+        thickness = text("thickness", value=Thickness(diameter_mm, wire=True))
+        rows.append((what, thickness, text("length", value=Length(total_mm)), text("mass", value=mass)))
+
+    for diameter_mm in sorted({wire.diameter_mm for wire in wires}, reverse=True):
+        length_mm = sum(wire.cut_length_mm for wire in wires if wire.diameter_mm == diameter_mm)
+        add(text("material-frame", metal=name, temper=temper), diameter_mm, length_mm)
+    if ties:
+        binding_mm = sum(tie.binding_mm for tie in ties)
+        add(text("material-binding", metal=name), guide.binding_gauge, binding_mm)
+    if ring is not None:
+        inside = Thickness(ring.inner_diameter_mm)
+        what = text("material-ring", metal=name, inside=inside, count=pieces)
+        add(what, ring.diameter_mm, ring.length_mm)
+    head = tuple(text(f"materials-head-{each}") for each in ("what", "thickness", "length", "weight"))
+    return Table(text("materials-table"), head, tuple(rows))
+
+
+def _cut_list(wires: Sequence[Wire], pieces: int) -> Table:
+    rows = tuple(
+        (
+            text("wire-capital", wire=wire.number),
+            text("cut-pieces", length=Length(wire.cut_length_mm), count=pieces),
+            text("length", value=Length((wire.cut_length_mm - wire.length_mm) / 2)),
+            text("length", value=Length(wire.length_mm)),
+        )
+        for wire in wires
+    )
+    head = tuple(text(f"cut-head-{each}") for each in ("wire", "cut", "tail", "shape"))
+    return Table(text("cut-table"), head, rows)
+
+
+def _tools(benches: Sequence[Bench]) -> Iterator[Text]:
+    yield text("tools")
+    if benches:
+        yield text("tools-jig", count=len(benches), board="no" if benches[0].anchored else "yes")
+        if len(benches) > 1:
+            yield text("tools-jigs", names=listed(bench.name for bench in benches))

@@ -1,0 +1,103 @@
+"""Moves put together as a person would say them: a straight run with the bend after it, repeats once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from wrapit.instructions.order.moves import Move
+
+# Moves are the same to the hand within these: a fifth of the length, and what an eye tells of an angle.
+SAME_SHARE: Final = 0.2
+SAME_MM: Final = 1.5
+SAME_RAD: Final = math.radians(12)
+# So often at least, or saying that it repeats takes longer than saying it; and the most moves of one repeat.
+LEAST_TIMES: Final = 3
+LONGEST_PATTERN: Final = 2
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """One step along a wire: all its `moves` end to end, and those of one repeat.
+
+    `pattern` has the bends of one repeat, `lead` the straight run before the first, if there is one.
+    """
+
+    moves: tuple[Move, ...]
+    pattern: tuple[Move, ...]
+    lead: Move | None
+    times: int = 1
+
+    @property
+    def turn(self) -> Move:
+        """The bend, curve or wrap that it is for; the first of a pattern."""
+        return self.pattern[0]
+
+
+def stretches_of(moves: Sequence[Move]) -> tuple[tuple[Stretch, ...], tuple[Move, ...]]:
+    """The steps of a wire, and the straight run that is left at its end."""
+    pairs: list[tuple[Move | None, Move]] = []
+    lead: Move | None = None
+    for move in moves:
+        if move.kind == "straight":
+            lead = move
+        else:
+            pairs.append((lead, move))
+            lead = None
+    stretches: list[Stretch] = []
+    index = 0
+    while index < len(pairs):
+        length, times = _repeat(pairs, index)
+        taken = pairs[index : index + length * times]
+        stretches.append(
+            Stretch(
+                tuple(move for pair in taken for move in pair if move is not None),
+                tuple(turn for _, turn in taken[:length]),
+                taken[0][0],
+                times,
+            )
+        )
+        index += length * times
+    return tuple(stretches), () if lead is None else (lead,)
+
+
+def _repeat(pairs: Sequence[tuple[Move | None, Move]], first: int) -> tuple[int, int]:
+    """(moves of one repeat, how often) from here on; (1, 1) where nothing repeats."""
+    best = (1, 1)
+    for length in range(1, LONGEST_PATTERN + 1):
+        times = 1
+        while all(
+            first + times * length + k < len(pairs)
+            and _alike(pairs[first + k], pairs[first + times * length + k], first_lead=k == 0 and times == 1)
+            for k in range(length)
+        ):
+            times += 1
+        if times >= LEAST_TIMES and length * times > best[0] * best[1]:
+            best = (length, times)
+    return best
+
+
+def _alike(one: tuple[Move | None, Move], other: tuple[Move | None, Move], *, first_lead: bool) -> bool:
+    """Whether a hand does the same twice; the run before the very first repeat may be another."""
+    (lead, turn), (other_lead, other_turn) = one, other
+    same = (
+        turn.kind == other_turn.kind
+        and _round(turn) == _round(other_turn)
+        and turn.turn_rad * other_turn.turn_rad > 0
+        and abs(turn.turn_rad - other_turn.turn_rad) <= SAME_RAD
+        and _near(turn.length_mm, other_turn.length_mm)
+    )
+    if first_lead:
+        return same
+    return same and _near(lead.length_mm if lead else 0.0, other_lead.length_mm if other_lead else 0.0)
+
+
+def _round(turn: Move) -> tuple[str, str]:
+    """What a bend is made round, by name: a peg is told from the next, a wall isn't."""
+    return (turn.contact.around, turn.contact.label) if turn.contact is not None else ("", "")
+
+
+def _near(a: float, b: float) -> bool:
+    return abs(a - b) <= max(SAME_MM, SAME_SHARE * max(a, b))

@@ -1,0 +1,59 @@
+"""A jig from above as a picture: plate, walls, wires, and each wire's number where it starts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from wrapit.geometry import FloatArray, Region
+from wrapit.geometry.bspline import chain_of
+from wrapit.jig.bench.model import Bench
+from wrapit.pages.model import Mark, Picture, Point, Shape
+from wrapit.wires.model import Wire
+
+# How high text stands on a picture, as a share of its longer side: over 11 px on a phone of 360.
+TEXT = 0.045
+# How wide wires are drawn on it, in shares of the text's height, so that walls stay visible beside them.
+LINE = 0.16
+# How finely plates are sampled for a picture's size.
+SAMPLED_MM = 0.05
+# Starts nearer than this share one hole, and one disc with both numbers.
+ONE_HOLE_MM = 1.6
+
+
+def bench_picture(bench: Bench) -> Picture:
+    """The jig with the wires of the guide laid in."""
+    low, high, text_mm = bounds_of(bench.plate)
+    walls = [Shape(wall, "wall") for wall in bench.walls]
+    lines = [Shape(chain_of(wire.centreline), "wire", wire.colour, LINE * text_mm) for wire in bench.wires]
+    return Picture(
+        low, high, text_mm, (Shape(bench.plate, "plate"), *walls, *lines), start_marks(bench.wires)
+    )
+
+
+def bounds_of(region: Region) -> tuple[Point, Point, float]:
+    """Lower left and upper right corner of a picture around a flat piece, and its text's height."""
+    outline = region.outer.sampled(SAMPLED_MM)
+    return framed(outline, 1.0)
+
+
+def framed(points: FloatArray, margin_mm: float) -> tuple[Point, Point, float]:
+    """The same around points (n, 2)."""
+    low, high = points.min(axis=0) - margin_mm, points.max(axis=0) + margin_mm
+    text_mm = TEXT * float(np.max(high - low))
+    return (float(low[0]), float(low[1])), (float(high[0]), float(high[1])), text_mm
+
+
+def start_marks(wires: Sequence[Wire]) -> tuple[Mark, ...]:
+    """A disc on each place where wires start, with their numbers."""
+    starting: list[tuple[Point, list[str]]] = []
+    for wire in wires:
+        start = (float(wire.ends[0][0]), float(wire.ends[0][1]))
+        shared = next((found for found in starting if math.dist(found[0], start) < ONE_HOLE_MM), None)
+        if shared is None:
+            starting.append((start, [str(wire.number)]))
+        else:
+            shared[1].append(str(wire.number))
+    return tuple(Mark(", ".join(numbers), at, "number") for at, numbers in starting)
