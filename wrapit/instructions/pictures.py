@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -23,6 +24,8 @@ from wrapit.wires.model import JumpRing, Wire
 PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
 # Length of an arrow's barbs, and how far each stands off the line.
 BARB, BARB_RAD = 0.75, 0.5
+# Height of a label's place in that of text: that of the disc around a letter.
+DISC = 1.25
 # How finely wires are sampled where labels keep off them.
 SAMPLED_MM = 0.2
 
@@ -58,6 +61,11 @@ class Scene:
         low, high, text_mm = framed(np.array(boxes), 0.5 * text_mm)
         return Scene(key, tuple(wires), None, low, high, text_mm)
 
+    @cached_property
+    def ink(self) -> FloatArray:
+        """Points (n, 2) all along the wires, which labels keep off."""
+        return np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in self.wires])
+
     @property
     def shared(self) -> dict[str, tuple[Shape, ...]]:
         """Its shapes that many pictures show: plate and walls as one, and each wire."""
@@ -82,7 +90,7 @@ class Scene:
         return Picture(self.low, self.high, self.text_mm, tuple(shapes), tuple(marks))
 
 
-def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ties: Sequence[Mark]) -> Figure:
+def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ties: Sequence[Tie]) -> Figure:
     """A step along a wire: what lies already, what is bent now and which way, round which walls."""
     chain = chain_of(wire.centreline)
     end_mm = min(step.end_mm, chain.length)
@@ -102,10 +110,9 @@ def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ti
     if start_mm > 1e-3:
         shapes.append(Shape(piece(chain, 0.0, start_mm), "earlier", wire.colour, LINE * scene.text_mm))
     shapes += _present(now, wire.colour, scene.text_mm)
-    start = (float(chain.start[0]), float(chain.start[1]))
-    marks = [Mark(str(wire.number), start, "number")] if scene.bench is not None else [Mark("", start, "dot")]
+    marks = tuple(_marks(scene, ties, str(wire.number), chain.start))
     words = text("picture-step", wire=wire.number, start=step.start_mm, end=step.end_mm)
-    return Figure(scene.picture(shapes, (*marks, *ties)), words)
+    return Figure(scene.picture(shapes, marks), words)
 
 
 def _present(now: BezierChain, colour: str, text_mm: float) -> Iterator[Shape]:
@@ -159,13 +166,19 @@ def cover_figure(scene: Scene, words: Text, caption: Text, ring: JumpRing | None
 
 def tie_labels(ties: Iterable[Tie], cloud: FloatArray, text_mm: float) -> tuple[Label, ...]:
     """Places for the letters of ties, clear of the wires (n, 2)."""
-    return place_labels([(tie.letter, np.array([tie.point])) for tie in ties], cloud, 1.25 * text_mm)
+    return place_labels([(tie.letter, np.array([tie.point])) for tie in ties], cloud, DISC * text_mm)
 
 
 def tie_marks(scene: Scene, ties: Sequence[Tie]) -> Mapping[str, Mark]:
     """The mark of each tie by its letter, with a leader to its place."""
-    cloud = np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in scene.wires])
-    return {
-        label.text: Mark(label.text, label.centre, "tie", label.anchor)
-        for label in tie_labels(ties, cloud, scene.text_mm)
-    }
+    labels = tie_labels(ties, scene.ink, scene.text_mm)
+    return {label.text: Mark(label.text, label.centre, "tie", label.anchor) for label in labels}
+
+
+def _marks(scene: Scene, ties: Sequence[Tie], number: str, start: FloatArray) -> Iterator[Mark]:
+    """The wire's number beside its start, and the letters of ties, none on another."""
+    (beside,) = place_labels([(number, start[None])], scene.ink, DISC * scene.text_mm)
+    yield Mark(number, beside.centre, "number", beside.anchor)
+    wanted = [(tie.letter, np.array([tie.point])) for tie in ties]
+    for label in place_labels(wanted, scene.ink, DISC * scene.text_mm, (beside,)):
+        yield Mark(label.text, label.centre, "tie", label.anchor)

@@ -50,9 +50,10 @@ class Duration:
 
 @dataclass(frozen=True)
 class Listed:
-    """Things one after the other: `a, b and c`."""
+    """Things one after the other: `a, b and c`, or `a, b or c`."""
 
     items: tuple[Value, ...]
+    word: Literal["and", "or"] = "and"
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,11 @@ def text(key: str, **values: Value) -> Text:
 def listed(items: Iterable[Value]) -> Listed:
     """Things one after the other."""
     return Listed(tuple(items))
+
+
+def either(items: Iterable[Value]) -> Listed:
+    """Things of which one will do."""
+    return Listed(tuple(items), "or")
 
 
 Style = Literal[

@@ -77,6 +77,7 @@ def chapters_of(
             chapters.append(_by_hand(work, wire, whole, wire_config))
             groups.append((wire,))
     together = tuple(_together(work, groups, whole, guide))
+    chapters = _said_once(chapters)
     chapters.append(
         Chapter(
             f"{work.prefix}together",
@@ -85,6 +86,18 @@ def chapters_of(
         )
     )
     return tuple(chapters), tuple(scenes)
+
+
+def _said_once(chapters: Sequence[Chapter]) -> list[Chapter]:
+    """The same without telling of springing back again, where the wire before was told the same."""
+    said: set[Text] = set()
+    once = []
+    for chapter in chapters:
+        first = chapter.steps[0]
+        kept = tuple(each for each in first.texts if each not in said)
+        said |= {each for each in first.texts if each.key.startswith("spring-")}
+        once.append(replace(chapter, steps=(replace(first, texts=kept), *chapter.steps[1:])))
+    return once
 
 
 def _in_jig(
@@ -129,9 +142,9 @@ def _take(work: Work, bench: Bench) -> Iterator[Text]:
 
 
 def _pictured(step: Step, wire: Wire, scene: Scene, laid: Laid) -> Step:
-    marks = tie_marks(scene, [tie for tie in laid.ties.values() if tie.letter in step.ties])
+    ties = [tie for tie in laid.ties.values() if tie.letter in step.ties]
     earlier = [each.number for each in laid.earlier]
-    return replace(step, figure=step_figure(scene, step, wire, earlier, tuple(marks.values())))
+    return replace(step, figure=step_figure(scene, step, wire, earlier, ties))
 
 
 def _chapter(work: Work, wire: Wire, steps: Sequence[Step]) -> Chapter:
@@ -252,16 +265,21 @@ def _ends(work: Work, whole: Scene) -> Step:
         if wire.closed:
             closed.append(wire.number)
             continue
-        for which, end_mm in (("start", 0.0), ("end", wire.length_mm)):
-            at_tie = any(abs(binding.at_mm - end_mm) < AT_TIE_MM for binding in wire.bindings)
-            (wound if at_tie else turned).append(text(f"tail-{which}", wire=wire.number))
+        at_tie = [
+            any(abs(binding.at_mm - end_mm) < AT_TIE_MM for binding in wire.bindings)
+            for end_mm in (0.0, wire.length_mm)
+        ]
+        for tails, mine in ((wound, at_tie), (turned, [not each for each in at_tie])):
+            if any(mine):
+                which = "both" if all(mine) else "start" if mine[0] else "end"
+                tails.append(text(f"tail-{which}", wire=wire.number))
     texts = [text("ends-straighten")] if any(bench.anchored for bench in work.benches) else []
     if closed:
         texts.append(text("ends-closed", wires=_wires(closed), count=len(closed)))
     for key, tails in (("wound", wound), ("turned", turned)):
         if tails:
-            everyone = len(tails) == 2 * len(work.wires)
-            texts.append(text(f"ends-{key}-all") if everyone else text(f"ends-{key}", tails=listed(tails)))
+            alone = not (turned if tails is wound else wound) and not closed
+            texts.append(text(f"ends-{key}-all") if alone else text(f"ends-{key}", tails=listed(tails)))
     if work.ties:
         texts.append(text("ends-binding"))
     everything = [wire.number for wire in work.wires]

@@ -33,6 +33,11 @@ SAME_WRAP_MM: Final = 3.0
 # Where a wire bends less than this share of a curve's mean, along so much, it is a straight run within it.
 SLACK_SHARE: Final = 0.25
 SLACK_MM: Final = 3.0
+# Bends that follow one another to one side are one sweep where their radii differ by no more than this, or by
+# no more than that where one of them is slight.
+SAME_RATIO: Final = 2.0
+SLIGHT_RATIO: Final = 3.0
+SLIGHT_RAD: Final = math.radians(25)
 # A straight run shorter than this is no run: the hand goes from one bend into the next.
 LEAST_RUN_MM: Final = 1.5
 
@@ -41,14 +46,14 @@ LEAST_RUN_MM: Final = 1.5
 class Move:
     """One thing that the hand does along a span of a wire, by arc length.
 
-    `turn_rad` is positive to the left; a wrap has the `contact` that it is made round.
+    `turn_rad` is positive to the left; a wrap has the `contacts` that it is made round, in their order.
     """
 
     kind: MoveKind
     start_mm: float
     end_mm: float
     turn_rad: float
-    contact: Contact | None = None
+    contacts: tuple[Contact, ...] = ()
 
     @property
     def length_mm(self) -> float:
@@ -64,8 +69,8 @@ class Move:
 def moves_along(wire: Wire, contacts: Sequence[Contact]) -> tuple[Move, ...]:
     """The moves of one wire, end to end from 0 to its length.
 
-    A wrap takes in all bending to its wall's side that follows on without a straight run; between wraps the
-    wire is parted by the side to which it bends.
+    A wrap takes in all bending to its wall's side that follows on without a straight run, along the next
+    wall too; between wraps the wire is parted by the side to which it bends.
     """
     line = _Line.of(wire)
     wraps = _wraps(line, contacts)
@@ -73,10 +78,10 @@ def moves_along(wire: Wire, contacts: Sequence[Contact]) -> tuple[Move, ...]:
     reached = 0
     for first, last, contact in wraps:
         moves += _free(line, reached, first)
-        moves.append(line.move("wrap", first, last, contact))
+        moves.append(replace(line.move("wrap", first, last), contacts=(contact,)))
         reached = last
     moves += _free(line, reached, line.count)
-    moves = _settled(moves)
+    moves = _settled(_one_sweep(moves))
     return tuple(_with_bail(wire, moves)) if wire.bail is not None else tuple(moves)
 
 
@@ -105,9 +110,9 @@ class _Line:
     def length(self, first: int, last: int) -> float:
         return float(self.at_mm[last] - self.at_mm[first])
 
-    def move(self, kind: MoveKind, first: int, last: int, contact: Contact | None = None) -> Move:
+    def move(self, kind: MoveKind, first: int, last: int) -> Move:
         start, end = float(self.at_mm[first]), float(self.at_mm[last])
-        return Move(kind, start, end, self.turned(first, last), contact)
+        return Move(kind, start, end, self.turned(first, last))
 
     def index(self, at_mm: float) -> int:
         return int(np.clip(np.searchsorted(self.at_mm, at_mm - 1e-9), 0, self.count))
@@ -233,6 +238,34 @@ def _kind(line: _Line, first: int, last: int) -> MoveKind:
     return "bend" if tight and length <= BEND_MM else "curve"
 
 
+def _one_sweep(moves: Sequence[Move]) -> list[Move]:
+    """Wraps that go on into one another as one, slight curves too; what hardly bends is straight."""
+    swept: list[Move] = []
+    for move in moves:
+        before = swept[-1] if swept else None
+        if before is not None and "wrap" in (before.kind, move.kind) and _goes_on(before, move):
+            swept[-1] = _joined(before, move, "wrap")
+        else:
+            swept.append(move)
+    return [
+        replace(move, kind="straight", contacts=()) if abs(move.turn_rad) < STRAIGHT_RAD else move
+        for move in swept
+    ]
+
+
+def _goes_on(before: Move, move: Move) -> bool:
+    """Whether two bends to one side are one to the hand: about as tight, or one of them slight."""
+    if before.turn_rad * move.turn_rad <= 0 or {before.kind, move.kind} - {"wrap", "curve", "straight"}:
+        return False
+    if any(contact.around != "wall" for contact in (*before.contacts, *move.contacts)):
+        return False
+    if "straight" in (before.kind, move.kind):
+        return False
+    slight = min(abs(before.turn_rad), abs(move.turn_rad)) < SLIGHT_RAD
+    ratio = before.radius_mm / move.radius_mm
+    return max(ratio, 1 / ratio) <= (SLIGHT_RATIO if slight else SAME_RATIO)
+
+
 def _settled(moves: Sequence[Move]) -> list[Move]:
     """Straight runs that are too short go to what comes after (or before, at the end); runs in a row join."""
     settled: list[Move] = []
@@ -241,7 +274,7 @@ def _settled(moves: Sequence[Move]) -> list[Move]:
         if before is not None and before.kind == move.kind == "straight":
             settled[-1] = _joined(before, move, "straight")
         elif before is not None and before.kind == "straight" and before.length_mm < LEAST_RUN_MM:
-            settled[-1] = replace(_joined(before, move, move.kind), contact=move.contact)
+            settled[-1] = _joined(before, move, move.kind)
         else:
             settled.append(move)
     if len(settled) > 1 and settled[-1].kind == "straight" and settled[-1].length_mm < LEAST_RUN_MM:
@@ -251,7 +284,8 @@ def _settled(moves: Sequence[Move]) -> list[Move]:
 
 
 def _joined(before: Move, move: Move, kind: MoveKind) -> Move:
-    return replace(before, kind=kind, end_mm=move.end_mm, turn_rad=before.turn_rad + move.turn_rad)
+    turned = before.turn_rad + move.turn_rad
+    return Move(kind, before.start_mm, move.end_mm, turned, (*before.contacts, *move.contacts))
 
 
 def _with_bail(wire: Wire, moves: Sequence[Move]) -> Iterator[Move]:

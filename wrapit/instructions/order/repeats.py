@@ -94,9 +94,9 @@ def _alike(one: tuple[Move | None, Move], other: tuple[Move | None, Move], *, fi
     return same and _near(lead.length_mm if lead else 0.0, other_lead.length_mm if other_lead else 0.0)
 
 
-def _round(turn: Move) -> tuple[str, str]:
+def _round(turn: Move) -> tuple[tuple[str, str], ...]:
     """What a bend is made round, by name: a peg is told from the next, a wall isn't."""
-    return (turn.contact.around, turn.contact.label) if turn.contact is not None else ("", "")
+    return tuple(dict.fromkeys((contact.around, contact.label) for contact in turn.contacts))
 
 
 def _near(a: float, b: float) -> bool:

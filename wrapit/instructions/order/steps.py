@@ -103,7 +103,7 @@ def _shape(laid: Laid, stretch: Stretch) -> Step:
     if stretch.times > 1:
         texts.append(text("repeat-times", times=stretch.times, moves=len(stretch.moves)))
     start, end = first.start_mm, stretch.moves[-1].end_mm
-    walls = [move.contact.index for move in stretch.moves if move.contact is not None]
+    walls = [contact.index for move in stretch.moves for contact in move.contacts]
     return _with_notes(
         laid,
         Step(
@@ -160,10 +160,9 @@ def _with_notes(laid: Laid, step: Step) -> Step:
     from dataclasses import replace
 
     wire = laid.wire
-    last = step.end_mm >= wire.length_mm - 1e-6
 
     def within(at_mm: float) -> bool:
-        return step.start_mm <= at_mm < step.end_mm or (last and at_mm >= step.start_mm)
+        return at_mm >= step.start_mm and (at_mm < step.end_mm or step.kind == "end")
 
     crossings = tuple(each for each in laid.crossings if within(each.at_mm))
     met = [
@@ -231,21 +230,20 @@ def _heading(stretch: Stretch) -> Text:
 
 def _lead(lead: Move, turn: Move) -> Iterator[Text]:
     length = Span(lead.start_mm, lead.end_mm)
-    if turn.contact is None:
-        yield text("lead-on", length=length)
+    if turn.contacts:
+        first = turn.contacts[0]
+        yield text(f"lead-to-{first.around}", length=length, side=first.side, hole=first.label)
     else:
-        yield text(
-            f"lead-to-{turn.contact.around}", length=length, side=turn.contact.side, hole=turn.contact.label
-        )
+        yield text("lead-on", length=length)
 
 
 def _turn(move: Move, by_hand: bool) -> Text:
     """One bend, curve or wrap as a sentence."""
     made: str = move.kind
     hole, rod = "", Thickness(0.0)
-    if move.contact is not None:
-        made = f"wrap-{move.contact.around}"
-        hole, rod = move.contact.label, Thickness(move.contact.rod_mm)
+    if move.contacts:
+        first = move.contacts[0]
+        made, hole, rod = f"wrap-{first.around}", first.label, Thickness(first.rod_mm)
     elif by_hand and move.kind == "curve":
         made = "by-hand-curve"
     return text(
@@ -257,6 +255,7 @@ def _turn(move: Move, by_hand: bool) -> Text:
         turns=_turns(move),
         hole=hole,
         rod=rod,
+        walls=len({contact.index for contact in move.contacts}),
     )
 
 

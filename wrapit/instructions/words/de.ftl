@@ -260,10 +260,13 @@ lead-to-pin = Geh { $length } gerade weiter bis zum Stift { $side ->
    *[right] rechts
 }.
 lead-to-peg = Geh { $length } gerade weiter bis zum Stift in { $hole }.
-do-wrap-wall = Wickle den Draht stramm um die { $side ->
-    [left] Wand links von ihm
-   *[right] Wand rechts von ihm
-}, um etwa { $angle }°: { $length } Draht, Radius { $radius }.
+do-wrap-wall = Wickle den Draht stramm um die { $walls ->
+    [one] Wand
+   *[other] Wände
+} { $side ->
+    [left] links
+   *[right] rechts
+} von ihm, um etwa { $angle }°: { $length } Draht, Radius { $radius }.
 do-wrap-pin = Wickle den Draht nach { $side ->
     [left] links
    *[right] rechts
@@ -384,12 +387,13 @@ ends-closed = { $count ->
    *[other] Beide Überstände von { $wires } treffen sich jeweils: wickle jeden einmal um den Anfang des anderen
 }, schneid ihn ab und drück ihn flach.
 ends-wound-all = Wickle jeden Überstand einmal um den Draht, auf den er trifft, schneid ihn ab, und drück das Ende flach.
-ends-wound = Wickle { $tails } einmal um den Draht, auf den er dort trifft, schneid ihn ab, und drück das Ende flach.
+ends-wound = Einige Überstände enden an einer Bindestelle: { $tails }. Wickle jeden einmal um den Draht, auf den er dort trifft, schneid ihn ab, und drück das Ende flach.
 ends-turned-all = Kürz jeden Überstand auf 8 mm, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
-ends-turned = Kürz { $tails } auf 8 mm, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
+ends-turned = Einige Überstände enden frei: { $tails }. Kürz jeden auf 8 mm, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
 ends-binding = Drück die Enden des Bindedrahts flach und schneid sie ab, damit nichts kratzt.
-tail-start = den Überstand am Anfang von Draht { $wire }
-tail-end = den Überstand am Ende von Draht { $wire }
+tail-start = Draht { $wire } (Anfang)
+tail-end = Draht { $wire } (Ende)
+tail-both = Draht { $wire } (beide)
 heading-ring = Der Bindering
 ring-open = Bieg den Bindering seitlich auf, häng ihn um den Draht, wo das Bild den offenen Kreis zeigt, und schließ ihn.
 

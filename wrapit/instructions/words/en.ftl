@@ -261,9 +261,12 @@ lead-to-pin = Go straight on for { $length }, to the pin on the { $side ->
    *[right] right
 }.
 lead-to-peg = Go straight on for { $length }, to the peg in { $hole }.
-do-wrap-wall = Wrap the wire round the { $side ->
-    [left] wall on its left
-   *[right] wall on its right
+do-wrap-wall = Wrap the wire round the { $walls ->
+    [one] wall
+   *[other] walls
+} on its { $side ->
+    [left] left
+   *[right] right
 }, tight, by about { $angle }°: { $length } of wire, radius { $radius }.
 do-wrap-pin = Wrap the wire to the { $side ->
     [left] left
@@ -385,12 +388,13 @@ ends-closed = { $count ->
    *[other] Both tails of each of { $wires } meet: wind each once round the other’s beginning
 }, cut it and press it flat.
 ends-wound-all = Wind every tail once round the wire that it meets, cut it, and press the end flat.
-ends-wound = Wind { $tails } once round the wire that it meets there, cut it, and press the end flat.
+ends-wound = Some tails end at a tie: { $tails }. Wind each once round the wire that it meets there, cut it, and press the end flat.
 ends-turned-all = Cut every tail to 8 mm, and turn it in to a small loop with round-nose pliers.
-ends-turned = Cut { $tails } to 8 mm, and turn it in to a small loop with round-nose pliers.
+ends-turned = Some tails end free: { $tails }. Cut each to 8 mm, and turn it in to a small loop with round-nose pliers.
 ends-binding = Press the ends of the binding wire flat and cut them off, so that nothing scratches.
-tail-start = the tail at the start of wire { $wire }
-tail-end = the tail at the end of wire { $wire }
+tail-start = wire { $wire } (start)
+tail-end = wire { $wire } (end)
+tail-both = wire { $wire } (both)
 heading-ring = The jump ring
 ring-open = Open the jump ring sideways, hook it round the wire where the picture shows the open circle, and close it.
 

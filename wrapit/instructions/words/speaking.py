@@ -18,6 +18,9 @@ from wrapit.instructions.words.quantities import (
 )
 from wrapit.pages.model import Duration, Length, Listed, Mass, Span, Text, Thickness, Value, text
 
+# Between a number and its unit, which stay on one line.
+UNIT = "\u00a0"
+
 
 class Speaker:
     """Says texts in one language, with lengths in one unit."""
@@ -50,7 +53,7 @@ class Speaker:
     def _worded(self, value: Value) -> str | int | float:
         match value:
             case Listed():
-                return self._listed([str(self._worded(item)) for item in value.items])
+                return self._listed([str(self._worded(item)) for item in value.items], value.word)
             case Text():
                 return self.say(value)
             case str() | int() | float():
@@ -74,30 +77,35 @@ class Speaker:
 
     def _length(self, mm: float) -> str:
         if self.unit == "in":
-            return inches(sixteenths(mm))
-        return f"{self.number(half_millimetres(mm), 1)} mm"
+            return self._inches(sixteenths(mm))
+        return f"{self.number(half_millimetres(mm), 1)}{UNIT}mm"
 
     def _span(self, span: Span) -> str:
         """What lies between two places as they are read: steps say lengths that add up."""
         if self.unit == "in":
-            return inches(sixteenths(span.end_mm) - sixteenths(span.start_mm))
-        return f"{self.number(half_millimetres(span.end_mm) - half_millimetres(span.start_mm), 1)} mm"
+            return self._inches(sixteenths(span.end_mm) - sixteenths(span.start_mm))
+        return f"{self.number(half_millimetres(span.end_mm) - half_millimetres(span.start_mm), 1)}{UNIT}mm"
+
+    def _inches(self, count: int) -> str:
+        return inches(count).replace(" in", f"{UNIT}in")
 
     def _thickness(self, thickness: Thickness) -> str:
         name = gauge(thickness.mm) if thickness.wire else ""
-        size = f"{self.number(thickness.mm, 2)} mm"
+        size = f"{self.number(thickness.mm, 2)}{UNIT}mm"
         if self.unit == "in":
-            size = f"{self.number(thickness.mm / INCH_MM, 3)} in"
+            size = f"{self.number(thickness.mm / INCH_MM, 3)}{UNIT}in"
         return f"{name} ({size})" if name else size
 
     def _mass(self, g: float) -> str:
-        return f"{self.number(g / OUNCE_G, 2)} oz" if self.unit == "in" else f"{self.number(g, 1)} g"
+        return (
+            f"{self.number(g / OUNCE_G, 2)}{UNIT}oz" if self.unit == "in" else f"{self.number(g, 1)}{UNIT}g"
+        )
 
-    def _listed(self, items: list[str]) -> str:
+    def _listed(self, items: list[str], word: str) -> str:
         """`a`, `a and b`, `a, b and c`."""
         if len(items) == 1:
             return items[0]
-        return f"{', '.join(items[:-1])} {self.of('and')} {items[-1]}"
+        return f"{', '.join(items[:-1])} {self.of(word)} {items[-1]}"
 
 
 @lru_cache(4)

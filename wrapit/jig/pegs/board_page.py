@@ -23,6 +23,7 @@ from wrapit.pages.model import (
     Table,
     Text,
     Thickness,
+    either,
     listed,
     text,
 )
@@ -38,7 +39,7 @@ def peg_page(plan: PegPlan, bench: Bench, files: Sequence[str]) -> GuidePage:
     how = text("pegs-how", columns=board.columns, rows=board.rows, pitch=Length(board.pitch_mm))
     blocks: list[Block] = [Paragraph(how)]
     if files:
-        blocks.append(Paragraph(text("pegs-file", files=listed(files))))
+        blocks.append(Paragraph(text("pegs-file", files=either(files))))
     blocks += [Figure(_picture(plan, bench), text("pegs-picture"), text("pegs-caption")), _table(plan)]
     if plan.unserved:
         blocks.append(Paragraph(text("pegs-unserved", turns=len(plan.unserved))))

@@ -21,6 +21,7 @@ from wrapit.pages.model import (
     Mass,
     Paragraph,
     Text,
+    either,
     listed,
     text,
 )
@@ -69,4 +70,4 @@ def _facts(jig: Jig, count: int, config: Config) -> Iterator[tuple[Text, Text]]:
 def _files(name: str, count: int, config: Config, suffix: str) -> Listed:
     """The files of one jig that a slicer takes, as the pipeline names them."""
     stem = file_stem(name, count) + suffix
-    return listed(f"{stem}.{kind}" for kind in ("3mf", "stl", "step") if kind in config.outputs)
+    return either(f"{stem}.{kind}" for kind in ("3mf", "stl", "step") if kind in config.outputs)

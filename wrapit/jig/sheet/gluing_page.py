@@ -27,6 +27,7 @@ from wrapit.pages.model import (
     Style,
     Table,
     Text,
+    either,
     listed,
     text,
 )
@@ -68,7 +69,7 @@ def _sheets(laser: LaserJig, files: Mapping[int, Sequence[str]]) -> Table:
                 text("length", value=Length(sheet.thickness_mm)),
                 text("size-flat", x=Length(sheet.width_mm), y=Length(sheet.height_mm)),
                 text("plain", value=", ".join(labels)),
-                text("file-one-of", files=listed(mine)) if mine else text("file-none-flat"),
+                text("file-one-of", files=either(mine)) if mine else text("file-none-flat"),
             )
         )
     return Table(text("glue-sheets"), head, tuple(rows))
