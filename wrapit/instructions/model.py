@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from wrapit.instructions.order.moves import Move
-from wrapit.pages.model import Block, Figure, Shape, Text
+from wrapit.pages.model import Block, Figure, Picture, Shape, Text
 from wrapit.wires.model import Wire
 
 StepKind = Literal["start", "shape", "end", "again", "lift", "place", "tie", "ends", "ring"]
@@ -105,6 +105,7 @@ class Guide:
     name: str
     lead: Text
     cover: Figure
+    true_size: Picture
     pages: tuple[Page, ...]
     chapters: tuple[Chapter, ...]
     ties: tuple[Tie, ...]

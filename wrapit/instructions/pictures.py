@@ -26,6 +26,8 @@ PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
 BARB, BARB_RAD = 0.75, 0.5
 # Height of a label's place in that of text: that of the disc around a letter.
 DISC = 1.25
+# Height of text on the print at true size: read at arm's length, and small beside the wires.
+PRINTED_TEXT_MM = 2.6
 # How finely wires are sampled where labels keep off them.
 SAMPLED_MM = 0.2
 
@@ -162,6 +164,24 @@ def cover_figure(scene: Scene, words: Text, caption: Text, ring: JumpRing | None
     return piece_figure(
         scene, words, laid=everything, marks=start_marks(scene.wires), ring=ring, caption=caption
     )
+
+
+def true_size_picture(scene: Scene, ties: Iterable[Tie]) -> Picture:
+    """The piece with wires as thick as they are, to lay them on: numbers at starts, letters at ties."""
+    wanted = [(str(wire.number), wire.ends[:1]) for wire in scene.wires]
+    starts = place_labels(wanted, scene.ink, DISC * PRINTED_TEXT_MM)
+    wanted = [(tie.letter, np.array([tie.point])) for tie in ties]
+    letters = place_labels(wanted, scene.ink, DISC * PRINTED_TEXT_MM, starts)
+    marks = [Mark(label.text, label.centre, "number", label.anchor) for label in starts]
+    marks += [Mark(label.text, label.centre, "tie", label.anchor) for label in letters]
+    thick = max(wire.diameter_mm for wire in scene.wires)
+    centres = np.array([mark.at for mark in marks])
+    cloud = np.vstack([scene.ink, centres - PRINTED_TEXT_MM, centres + PRINTED_TEXT_MM])
+    low, high, _ = framed(cloud, thick)
+    lines = [
+        Shared(scene.wire_key(wire.number), "wire", wire.colour, wire.diameter_mm) for wire in scene.wires
+    ]
+    return Picture(low, high, PRINTED_TEXT_MM, tuple(lines), tuple(marks))
 
 
 def tie_labels(ties: Iterable[Tie], cloud: FloatArray, text_mm: float) -> tuple[Label, ...]:

@@ -15,7 +15,7 @@ from wrapit.instructions.model import Chapter, Guide, Page
 from wrapit.instructions.order.binding_order import find_ties
 from wrapit.instructions.order.laying import Work, chapters_of
 from wrapit.instructions.order.strips import strips_of
-from wrapit.instructions.pictures import Scene, cover_figure
+from wrapit.instructions.pictures import Scene, cover_figure, true_size_picture
 from wrapit.jig.bench.model import Handling
 from wrapit.jig.made import GuidePage
 from wrapit.pages.model import Length, text
@@ -80,6 +80,7 @@ def plan_guide(
         name=name,
         lead=lead,
         cover=cover_figure(whole, text("cover-picture"), caption, ring),
+        true_size=true_size_picture(whole, ties),
         pages=(*(Page(page.anchor, page.title, page.blocks) for page in pages), materials),
         chapters=tuple(chapters),
         ties=ties,

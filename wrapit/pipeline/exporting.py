@@ -7,6 +7,7 @@ from pathlib import Path
 
 from wrapit.config import Config
 from wrapit.drawing.model import Drawing
+from wrapit.errors import Finding
 from wrapit.jig.made import Made
 from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
@@ -43,10 +44,10 @@ def write_guide(
     mirrored: Made | None,
     ring: JumpRing | None,
     config: Config,
-) -> None:
+) -> tuple[Finding, ...]:
     """`guide.html`, `guide.pdf`; the steps are those of the first jig, the other's of its mirror image."""
     from wrapit.instructions.plan import Held, plan_guide
-    from wrapit.instructions.stage import write_page
+    from wrapit.instructions.stage import write_page, write_print
 
     guide = plan_guide(
         wires,
@@ -60,6 +61,11 @@ def write_guide(
     )
     if "html" in config.outputs:
         write_text(folder / "guide.html", write_page(guide, config.guide))
+    if "pdf" not in config.outputs:
+        return ()
+    printed, findings = write_print(guide, config.guide)
+    (folder / "guide.pdf").write_bytes(printed)
+    return findings
 
 
 def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: int) -> None:

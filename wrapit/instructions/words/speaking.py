@@ -29,6 +29,11 @@ class Speaker:
         self.language, self.unit = language, unit
         self._bundle = _bundle(language)
 
+    @property
+    def letters(self) -> str:
+        """All that its sentences are made of."""
+        return _source(self.language)
+
     def say(self, said: Text) -> str:
         """The sentence. Raises KeyError without such a key, ValueError for values that don't fit it."""
         message = self._bundle.get_message(said.key)
@@ -114,6 +119,9 @@ def _bundle(language: Language) -> Any:
 
     # Marks that isolate what is put in are for right-to-left scripts; prints would show them as boxes.
     bundle = FluentBundle([language], use_isolating=False)
-    source = resources.files("wrapit.instructions.words").joinpath(f"{language}.ftl")
-    bundle.add_resource(FluentResource(source.read_text(encoding="utf-8")))
+    bundle.add_resource(FluentResource(_source(language)))
     return bundle
+
+
+def _source(language: Language) -> str:
+    return resources.files("wrapit.instructions.words").joinpath(f"{language}.ftl").read_text("utf-8")
