@@ -10,7 +10,7 @@ READY := $(VENV)/.ready
 # build/NAME for each config; a space in a name (and what else make would stumble upon) gets its backslash.
 PIECES := $(shell for each in configs/*.yaml; do [ ! -e "$$each" ] || echo "$$each"; done \
   | sed -e 's|^configs/\(.*\)\.yaml$$|build/\1|' -e 's/[[ |;:*?]/\\&/g')
-SOURCES := $(shell find wrapit -name '*.py' -o -name '*.jinja' -o -name '*.css')
+SOURCES := $(shell find wrapit -name '*.py' -o -name '*.jinja' -o -name '*.css' -o -name '*.js' -o -name '*.ftl')
 JOBS ?= auto
 # A word as the shell reads it: in quotes.
 quoted = '$(subst ','\'',$(1))'

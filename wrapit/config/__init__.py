@@ -2,14 +2,13 @@
 
 from wrapit.config.bail import BailConfig
 from wrapit.config.decomposition import DecompositionConfig, WeightsConfig
-from wrapit.config.guide import GuideConfig
 from wrapit.config.jig import JigConfig, SeatConfig
 from wrapit.config.loading import load_config
 from wrapit.config.locking import lock_text, schema
 from wrapit.config.naming import named_after, safe_name
 from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
-from wrapit.config.root import Config, JigKind, WireConfig
+from wrapit.config.root import Config, GuideConfig, JigKind, Language, LengthUnit, Paper, WireConfig
 from wrapit.config.tracing import TracingConfig
 
 __all__ = [
@@ -19,6 +18,9 @@ __all__ = [
     "GuideConfig",
     "JigConfig",
     "JigKind",
+    "Language",
+    "LengthUnit",
+    "Paper",
     "PegsConfig",
     "PlateConfig",
     "SeatConfig",

@@ -9,12 +9,11 @@ from pydantic import Field, field_validator
 from wrapit.config.bail import BailConfig
 from wrapit.config.block import Block
 from wrapit.config.decomposition import DecompositionConfig
-from wrapit.config.guide import GuideConfig
 from wrapit.config.jig import JigConfig
 from wrapit.config.naming import LONGEST_NAME, LONGEST_PATH, name_problem, path_problem
 from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
-from wrapit.config.quantities import length, wire_gauge
+from wrapit.config.quantities import length, whole, wire_gauge
 from wrapit.config.tracing import TracingConfig
 from wrapit.materials import MetalName, Temper
 from wrapit.units import awg_diameter_mm
@@ -24,6 +23,9 @@ NAME_PATTERN: Final = r'^(?![ .-])[^\\/:*?"<>|\x00-\x1f]*(?<![ .])$'
 
 JigKind = Literal["printed", "sheet", "pegs"]
 Output = Literal["step", "stl", "3mf", "dxf", "svg", "html", "pdf"]
+Language = Literal["en", "de"]
+LengthUnit = Literal["mm", "in"]
+Paper = Literal["A4", "letter"]
 
 
 class WireConfig(Block):
@@ -37,6 +39,28 @@ class WireConfig(Block):
 
     temper: Temper = "dead soft"
     """How hard the metal is drawn; soft wire bends more tightly."""
+
+
+class GuideConfig(Block):
+    """The step-by-step guide."""
+
+    binding_gauge: Annotated[float, wire_gauge("0.05 mm", "3 mm", "28 AWG")] = awg_diameter_mm(28)
+    """Thin wire that ties the wires together."""
+
+    binding_turns: Annotated[int, whole(1, 50)] = 5
+    """Turns of binding wire at each connection."""
+
+    margin: Annotated[float, length("0 mm", "1 m", "50 mm")] = 50.0
+    """Extra wire to hold and bend, both ends of a wire together (at least 15 % of its length)."""
+
+    language: Language = "en"
+    """English or German."""
+
+    units: LengthUnit = "mm"
+    """Lengths in millimetres, or in inches to the sixteenth."""
+
+    paper: Paper = "A4"
+    """Sheets that `guide.pdf` is printed on: `A4` or US `letter`."""
 
 
 class Config(Block):

@@ -11,7 +11,7 @@ from wrapit.geometry.outlines.loops import as_chain
 from wrapit.instructions.page.picture_svg import DROP, disc_radius
 from wrapit.pages.model import Mark, Picture, Shape, Shared, Style
 
-MM: Final = 72 / 25.4
+MM: Final = 72 / 25.4  # points in a millimetre: what reportlab counts in
 # Fill, line and its width in mm of each style; a shape's own colour and width come before.
 LOOKS: Final[dict[Style, tuple[str, str, float]]] = {
     "plate": ("#f4efe6", "#c4c4c4", 0.2),

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final
 from xml.sax.saxutils import escape
 
-from wrapit.config.guide import Paper
+from wrapit.config import Paper
 from wrapit.instructions.model import Guide, Step
 from wrapit.instructions.print.fonts import letters_for
 from wrapit.instructions.print.painting import MM, Brush

@@ -8,7 +8,7 @@ from typing import Final
 
 from wrapit.units import MM_PER, SWG_MM, awg_diameter_mm
 
-INCH_MM: Final = MM_PER["in"]
+INCH_MM: Final = MM_PER["in"]  # one truth with what configs may say
 # A ruler in inches has sixteenths; below an inch, for radii, its finer half has thirty-seconds.
 SIXTEENTHS: Final = 16
 OUNCE_G: Final = 28.349523125

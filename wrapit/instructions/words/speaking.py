@@ -6,7 +6,7 @@ from functools import lru_cache
 from importlib import resources
 from typing import Any
 
-from wrapit.config.guide import Language, LengthUnit
+from wrapit.config import Language, LengthUnit
 from wrapit.instructions.words.quantities import (
     INCH_MM,
     OUNCE_G,
