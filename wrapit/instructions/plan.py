@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -17,7 +17,7 @@ from wrapit.instructions.order.laying import Work, chapters_of
 from wrapit.instructions.order.strips import strips_of
 from wrapit.instructions.pictures import Scene, cover_figure, true_size_picture
 from wrapit.jig.bench.model import Handling
-from wrapit.jig.made import GuidePage
+from wrapit.jig.made import MIRRORED, GuidePage
 from wrapit.pages.model import Length, text
 from wrapit.wires.mirror import mirrored, mirrored_ring
 from wrapit.wires.model import JumpRing, Wire
@@ -44,15 +44,17 @@ def plan_guide(
     other: Held | None = None,
     pages: Sequence[GuidePage] = (),
     ring: JumpRing | None = None,
+    bridges: frozenset[int] = frozenset(),
 ) -> Guide:
     """The guide for these wires, in their order; ties are lettered.
 
-    `other` is that of the mirror image, for a pair. Raises ValueError when there are no wires.
+    `other` is that of the mirror image, for a pair; `bridges` are segments that the
+    drawing didn't have. Raises ValueError when there are no wires.
     """
     if not wires:
         raise ValueError("a guide needs at least one wire")
     ties = find_ties(wires, guide_config.binding_gauge, guide_config.binding_turns)
-    first = Work("", tuple(wires), held.handling, ties, held.findings, ring)
+    first = Work("", "", tuple(wires), held.handling, ties, held.findings, ring, bridges)
     chapters, scenes = chapters_of(first, guide_config, wire_config)
     forms = held.handling.forms if held.handling is not None else ()
     strips = strips_of(wires, forms, chapters, ties)
@@ -98,10 +100,17 @@ def _other(
     """The mirror image, made in jigs of its own with the same letters at the same ties."""
     wires = mirrored(first.wires)
     points = {binding.junction: binding.point for wire in wires for binding in wire.bindings}
-    from dataclasses import replace
-
     ties = tuple(replace(tie, point=points[tie.junction]) for tie in first.ties)
-    work = Work(OTHER, wires, other.handling, ties, other.findings, mirrored_ring(first.ring))
+    work = replace(
+        first,
+        prefix=OTHER,
+        suffix=MIRRORED,
+        wires=wires,
+        handling=other.handling,
+        ties=ties,
+        findings=other.findings,
+        ring=mirrored_ring(first.ring),
+    )
     return chapters_of(work, guide_config, wire_config)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from wrapit.config import Config
+from wrapit.decomposition.model import Solution
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.jig.made import Made
@@ -39,6 +40,7 @@ def write_drawings(folder: Path, made: Made, config: Config) -> None:
 
 def write_guide(
     folder: Path,
+    solution: Solution,
     wires: Sequence[Wire],
     jigs: Sequence[Made],
     mirrored: Made | None,
@@ -48,16 +50,23 @@ def write_guide(
     """`guide.html`, `guide.pdf`; the steps are those of the first jig, the other's of its mirror image."""
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
+    from wrapit.jig.bench.mirror import mirrored_handling
 
+    held, other = Held(jigs[0].handling, jigs[0].findings), None
+    if mirrored is not None and jigs[0].block == mirrored.block:
+        other = Held(mirrored.handling, mirrored.findings)
+    elif config.pair:
+        other = Held(held.handling and mirrored_handling(held.handling), held.findings)
     guide = plan_guide(
         wires,
         config.guide,
         config.wire,
         name=config.name,
-        held=Held(jigs[0].handling, jigs[0].findings),
-        other=Held(mirrored.handling, mirrored.findings) if mirrored is not None else None,
+        held=held,
+        other=other,
         pages=[made.page for made in jigs if made.page is not None],
         ring=ring,
+        bridges=frozenset(solution.bridges_used),
     )
     if "html" in config.outputs:
         write_text(folder / "guide.html", write_page(guide, config.guide))

@@ -128,7 +128,9 @@ def _export(work: Work, worker: Worker | None, folder: Path) -> None:
             for made in jigs:
                 write_drawings(folder, made, work.config)
             if {"html", "pdf"} & set(work.config.outputs):
-                work.findings += write_guide(folder, work.wires, jigs, work.mirrored, work.ring, work.config)
+                work.findings += write_guide(
+                    folder, work.solution, work.wires, jigs, work.mirrored, work.ring, work.config
+                )
         if work.mirrored is not None:
             with wires_beside(work, worker, folder, MIRRORED):
                 write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)

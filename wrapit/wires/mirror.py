@@ -12,7 +12,7 @@ from wrapit.geometry import BSpline
 from wrapit.wires.model import JumpRing, Side, Wire
 
 # What a mirror with a vertical axis does to sides and to coordinates.
-_OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left"}
+OTHER_SIDE: Final[dict[Side, Side]] = {"left": "right", "right": "left"}
 _FLIP = np.array([-1.0, 1.0])
 
 
@@ -28,7 +28,7 @@ def mirrored_ring(ring: JumpRing | None) -> JumpRing | None:
     """The jump ring in the mirror image."""
     if ring is None:
         return None
-    return dataclasses.replace(ring, point=_flipped(ring.point), outward=_flipped(ring.outward))
+    return dataclasses.replace(ring, point=flipped(ring.point), outward=flipped(ring.outward))
 
 
 def _mirrored(wire: Wire) -> Wire:
@@ -36,13 +36,14 @@ def _mirrored(wire: Wire) -> Wire:
     return dataclasses.replace(
         wire,
         centreline=BSpline(line.degree, line.poles * _FLIP, line.knots),
-        bail=wire.bail and dataclasses.replace(wire.bail, centre=_flipped(wire.bail.centre)),
-        turns=tuple(dataclasses.replace(turn, inside=_OTHER_SIDE[turn.inside]) for turn in wire.turns),
+        bail=wire.bail and dataclasses.replace(wire.bail, centre=flipped(wire.bail.centre)),
+        turns=tuple(dataclasses.replace(turn, inside=OTHER_SIDE[turn.inside]) for turn in wire.turns),
         bindings=tuple(
-            dataclasses.replace(binding, point=_flipped(binding.point)) for binding in wire.bindings
+            dataclasses.replace(binding, point=flipped(binding.point)) for binding in wire.bindings
         ),
     )
 
 
-def _flipped(point: tuple[float, float]) -> tuple[float, float]:
+def flipped(point: tuple[float, float]) -> tuple[float, float]:
+    """A point with x → −x."""
     return -point[0], point[1]

@@ -15,6 +15,7 @@ from wrapit.instructions.order.crossings import crossings_over
 from wrapit.instructions.order.steps import Laid, wire_steps
 from wrapit.instructions.pictures import PRESENT, Scene, piece_figure, step_figure, tie_marks
 from wrapit.jig.bench.model import Bench, Handling
+from wrapit.jig.made import file_stem
 from wrapit.jig.model import SameShape
 from wrapit.materials import METALS
 from wrapit.pages.model import Figure, Length, Listed, Mark, Shared, Text, listed, text
@@ -26,21 +27,26 @@ LEAST_SPRINGY_RADIUS_MM: Final = 5.0
 MOST_SPRINGY_RADIUS_MM: Final = 50.0
 # A wire that ends this near a tie is wound round what it meets there; any other end is turned in.
 AT_TIE_MM: Final = 2.0
+# What is left of a tail to turn in: round the tip of round-nose pliers.
+TURNED_IN_MM: Final = 8.0
 
 
 @dataclass(frozen=True, eq=False)
 class Work:
     """What is laid: the piece's wires, the jigs with theirs, ties, and what was found of the jigs.
 
-    `prefix` begins the anchors and picture keys: the other one of a pair has its own.
+    `prefix` begins the anchors and picture keys, `suffix` ends the names of jigs: the other one of a pair has
+    its own. `bridges` are segments that the drawing didn't have.
     """
 
     prefix: str
+    suffix: str
     wires: tuple[Wire, ...]
     handling: Handling | None
     ties: tuple[Tie, ...]
     findings: tuple[Finding, ...]
     ring: JumpRing | None
+    bridges: frozenset[int]
 
     @property
     def benches(self) -> tuple[Bench, ...]:
@@ -130,13 +136,13 @@ def _laid(work: Work, wire: Wire, bench: Bench | None, earlier: Sequence[Wire]) 
     mine = tuple(finding for finding in work.findings if finding.wire == wire.name)
     ties = {tie.junction: tie for tie in work.ties}
     # By hand nothing lies there yet but the wire's own beginning.
-    return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), mine)
+    return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), mine, work.bridges)
 
 
 def _take(work: Work, bench: Bench) -> Iterator[Text]:
     """Which jig, and what goes into it before the first wire."""
-    if len(work.benches) > 1:
-        yield text("take-jig", jig=bench.name)
+    if len(work.benches) > 1 or work.prefix:
+        yield text("take-jig", jig=file_stem(bench.name, len(work.benches)) + work.suffix)
     if bench.seats_mm:
         yield text("set-beads", count=len(bench.seats_mm), sizes=listed(map(Length, bench.seats_mm)))
 
@@ -276,10 +282,16 @@ def _ends(work: Work, whole: Scene) -> Step:
     texts = [text("ends-straighten")] if any(bench.anchored for bench in work.benches) else []
     if closed:
         texts.append(text("ends-closed", wires=_wires(closed), count=len(closed)))
+    left = Length(TURNED_IN_MM)
     for key, tails in (("wound", wound), ("turned", turned)):
         if tails:
             alone = not (turned if tails is wound else wound) and not closed
-            texts.append(text(f"ends-{key}-all") if alone else text(f"ends-{key}", tails=listed(tails)))
+            said = (
+                text(f"ends-{key}-all", left=left)
+                if alone
+                else text(f"ends-{key}", tails=listed(tails), left=left)
+            )
+            texts.append(said)
     if work.ties:
         texts.append(text("ends-binding"))
     everything = [wire.number for wire in work.wires]

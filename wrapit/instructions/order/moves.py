@@ -25,9 +25,9 @@ STEP_MM: Final = 0.1
 STRAIGHT_RAD: Final = math.radians(12)
 # From a fold on the wire lies back on itself; from a loop on it closes; from a spiral on it goes on round.
 FOLD_RAD, LOOP_RAD, SPIRAL_RAD = math.radians(155), math.radians(330), math.radians(405)
-# A bend is what pliers do: all its turning within three or four thicknesses of wire, a radius under two.
+# A bend is what pliers do: all its turning within four thicknesses of wire, a radius under three.
 BEND_MM: Final = 4.0
-BEND_RADIUS_MM: Final = 2.0
+BEND_RADIUS_MM: Final = 3.0
 # Spans round one wall that lie this near each other are one wrap to the hand, wherever the wall has a gap.
 SAME_WRAP_MM: Final = 3.0
 # Where a wire bends less than this share of a curve's mean, along so much, it is a straight run within it.

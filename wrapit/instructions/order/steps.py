@@ -24,6 +24,8 @@ BY_HAND: Final = ("strays", "hemmed", "weak-turn", "weak-stretch", "turn-without
 DIRECTIONS: Final = (
     "right", "upper-right", "up", "upper-left", "left", "lower-left", "down", "lower-right",
 )  # fmt: skip
+# Wire that is led to the next wall makes a curve of this much by itself; more is for fingers.
+LET_RUN_RAD: Final = math.radians(45)
 # The stretch that a start is shown with, to see which way to go.
 FIRST_MM: Final = 6.0
 
@@ -38,6 +40,7 @@ class Laid:
     ties: Mapping[int, Tie]
     crossings: tuple[Crossing, ...]
     findings: tuple[Finding, ...]
+    bridges: frozenset[int] = frozenset()
 
     @property
     def contacts(self) -> Sequence[Contact]:
@@ -171,8 +174,11 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         if binding.junction in laid.ties and within(binding.at_mm)
     ]
     notes = [*_crossing_notes(wire, crossings)]
-    if _doubled(wire, step):
+    if _along(wire, step, _second_runs(wire)):
         notes.append(text("note-doubled"))
+    bridges = [run for run, traversal in enumerate(wire.traversals) if traversal.segment in laid.bridges]
+    if _along(wire, step, bridges):
+        notes.append(text("note-bridge"))
     if met:
         places = listed(text("tie-at", letter=letter, at=Length(at_mm)) for letter, at_mm in met)
         notes.append(text("note-ties", places=places, count=len(met)))
@@ -196,15 +202,23 @@ def _crossing_notes(wire: Wire, crossings: Sequence[Crossing]) -> Iterator[Text]
         yield text("note-over", under=listed(under), places=listed(map(Length, places)))
 
 
-def _doubled(wire: Wire, step: Step) -> bool:
-    """Whether more than half of a step runs along a segment for the second time."""
+def _second_runs(wire: Wire) -> list[int]:
+    """Places among the wire's traversals that run along a segment again."""
     seen: set[int] = set()
-    again_mm = 0.0
-    for traversal, (start, end) in zip(wire.traversals, wire.segment_spans_mm, strict=True):
+    again = []
+    for place, traversal in enumerate(wire.traversals):
         if traversal.segment in seen:
-            again_mm += max(0.0, min(end, step.end_mm) - max(start, step.start_mm))
+            again.append(place)
         seen.add(traversal.segment)
-    return again_mm > (step.end_mm - step.start_mm) / 2 > 0
+    return again
+
+
+def _along(wire: Wire, step: Step, runs: Sequence[int]) -> bool:
+    """Whether more than half of a step lies along these traversals, or all of one of them lies within it."""
+    spans = [wire.segment_spans_mm[run] for run in runs]
+    shared = [max(0.0, min(end, step.end_mm) - max(start, step.start_mm)) for start, end in spans]
+    whole = any(0 < end - start <= both + 1e-6 for (start, end), both in zip(spans, shared, strict=True))
+    return whole or sum(shared) > (step.end_mm - step.start_mm) / 2 > 0
 
 
 def _cautions(findings: Sequence[Finding], within: object) -> Iterator[Text]:
@@ -244,7 +258,7 @@ def _turn(move: Move, by_hand: bool) -> Text:
     if move.contacts:
         first = move.contacts[0]
         made, hole, rod = f"wrap-{first.around}", first.label, Thickness(first.rod_mm)
-    elif by_hand and move.kind == "curve":
+    elif move.kind == "curve" and (by_hand or abs(move.turn_rad) > LET_RUN_RAD):
         made = "by-hand-curve"
     return text(
         f"do-{made}",

@@ -67,8 +67,8 @@ materials-head-what = Material
 materials-head-thickness = Dicke
 materials-head-length = Insgesamt
 materials-head-weight = Gewicht
-material-frame = { $metal }draht, { $temper }, für die Form
-material-binding = { $metal }draht, weich geglüht, zum Binden
+material-frame = Draht aus { $metal }, { $temper }, für die Form
+material-binding = Draht aus { $metal }, weich geglüht, zum Binden
 material-ring = { $count ->
     [one] Bindering aus { $metal }
    *[other] { $count } Binderinge aus { $metal }
@@ -78,7 +78,7 @@ metal-brass = Messing
 metal-bronze = Bronze
 metal-sterling-silver = Sterlingsilber
 metal-fine-silver = Feinsilber
-metal-gold-filled = Goldfilled-
+metal-gold-filled = Goldfilled
 metal-aluminium = Aluminium
 metal-steel = Stahl
 temper-dead-soft = weich geglüht
@@ -309,6 +309,7 @@ repeat-pattern = Im Wechsel: { $moves }, je nachdem, wie die Wände führen.
 repeat-times = Mach das insgesamt { $times }-mal hintereinander.
 note-over = Er läuft über { $under } bei { $places }.
 note-doubled = Leg ihn dicht neben den Lauf, der dort schon liegt.
+note-bridge = Dieses Stück ist eine Brücke, die die Zeichnung nicht hat: sie hält das Ganze zusammen.
 tie-at = { $letter } ({ $at })
 note-ties = { $count ->
     [one] Unterwegs liegt eine Stelle zum späteren Binden: { $places }.
@@ -388,8 +389,8 @@ ends-closed = { $count ->
 }, schneid ihn ab und drück ihn flach.
 ends-wound-all = Wickle jeden Überstand einmal um den Draht, auf den er trifft, schneid ihn ab, und drück das Ende flach.
 ends-wound = Einige Überstände enden an einer Bindestelle: { $tails }. Wickle jeden einmal um den Draht, auf den er dort trifft, schneid ihn ab, und drück das Ende flach.
-ends-turned-all = Kürz jeden Überstand auf 8 mm, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
-ends-turned = Einige Überstände enden frei: { $tails }. Kürz jeden auf 8 mm, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
+ends-turned-all = Kürz jeden Überstand auf { $left }, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
+ends-turned = Einige Überstände enden frei: { $tails }. Kürz jeden auf { $left }, und roll ihn mit der Rundzange zu einer kleinen Öse ein.
 ends-binding = Drück die Enden des Bindedrahts flach und schneid sie ab, damit nichts kratzt.
 tail-start = Draht { $wire } (Anfang)
 tail-end = Draht { $wire } (Ende)

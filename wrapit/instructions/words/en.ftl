@@ -310,6 +310,7 @@ repeat-pattern = In turn: { $moves }, each as the walls lead.
 repeat-times = Do that { $times } times in all, one after the other.
 note-over = It passes over { $under } at { $places }.
 note-doubled = Lay it close beside the run that lies there already.
+note-bridge = This stretch is a bridge that the drawing doesn’t have: it holds the piece together.
 tie-at = { $letter } ({ $at })
 note-ties = { $count ->
     [one] On the way is a place to tie later: { $places }.
@@ -389,8 +390,8 @@ ends-closed = { $count ->
 }, cut it and press it flat.
 ends-wound-all = Wind every tail once round the wire that it meets, cut it, and press the end flat.
 ends-wound = Some tails end at a tie: { $tails }. Wind each once round the wire that it meets there, cut it, and press the end flat.
-ends-turned-all = Cut every tail to 8 mm, and turn it in to a small loop with round-nose pliers.
-ends-turned = Some tails end free: { $tails }. Cut each to 8 mm, and turn it in to a small loop with round-nose pliers.
+ends-turned-all = Cut every tail to { $left }, and turn it in to a small loop with round-nose pliers.
+ends-turned = Some tails end free: { $tails }. Cut each to { $left }, and turn it in to a small loop with round-nose pliers.
 ends-binding = Press the ends of the binding wire flat and cut them off, so that nothing scratches.
 tail-start = wire { $wire } (start)
 tail-end = wire { $wire } (end)
