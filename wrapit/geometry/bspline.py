@@ -52,13 +52,20 @@ class BSpline:
 
     def derivative(self, u: FloatArray, order: int = 1) -> FloatArray:
         """Derivatives at parameters (m,): (m, 2)."""
-        return self._pieces.derivative(order)(u)
+        if order not in self._derivatives:
+            self._derivatives[order] = self._pieces.derivative(order)
+        return np.asarray(self._derivatives[order](u))
 
     def curvature(self, u: FloatArray) -> FloatArray:
         """Signed curvature at parameters (m,), positive where the curve turns left."""
         d, dd = self.derivative(u), self.derivative(u, 2)
         speed = np.linalg.norm(d, axis=1)
         return (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
+
+    @cached_property
+    def _derivatives(self) -> dict[int, Any]:
+        """Those of `_pieces` that were asked for, by their order."""
+        return {}
 
     @cached_property
     def _pieces(self) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
-from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.bezier import evenly_evaluated
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
 from wrapit.wires.model import Side, Turn, Wire
@@ -136,8 +136,5 @@ class Channels:
         pieces = curves.pieces[curves.first[index] : curves.last[index] + 1]
         # The chord of a cubic strays by at most 1/8 of its largest second derivative (per unit parameter).
         second = 6 * np.linalg.norm(np.diff(pieces, n=2, axis=1), axis=2).max(axis=1)
-        counts = np.maximum(1, np.ceil(np.sqrt(second / (8 * SAGITTA_MM)))).astype(int)
-        parts = [pieces[:1, 0]]
-        for piece, count in zip(pieces, counts, strict=True):
-            parts.append(evaluate(piece[None], np.arange(1, count + 1) / count)[0])
-        return np.concatenate(parts)
+        counts = np.maximum(1, np.ceil(np.sqrt(second / (8 * SAGITTA_MM)))).astype(np.int64)
+        return np.concatenate([pieces[:1, 0], evenly_evaluated(pieces, counts)])
