@@ -33,20 +33,23 @@ def passage(channels: Channels, held: Sequence[Turn], config: JigConfig) -> Any:
 
     if channels.face_mm == channels.reach_mm:
         return channels.area
-    mine = [tuple(span for span in held if span.wire == wire.name) for wire in channels.wires]
-    return shapely.union_all([_of_wire(channels, i, spans, config) for i, spans in enumerate(mine)])
+    mine = [
+        tuple((span, prolonged_mm(span, config)) for span in held if span.wire == wire.name)
+        for wire in channels.wires
+    ]
+    return shapely.union_all([_of_wire(channels, i, spans) for i, spans in enumerate(mine)])
 
 
 @lru_cache(_REMEMBERED)
-def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: JigConfig) -> Any:
-    """What is left free for one wire."""
+def _of_wire(channels: Channels, index: int, held: tuple[tuple[Turn, float], ...]) -> Any:
+    """What is left free for one wire, of which spans are held, each so much beyond its ends."""
     import shapely
 
-    sides = {span: _held_side(channels, span, prolonged_mm(span, config)) for span in held}
+    sides = {(span, beyond_mm): _held_side(channels, span, beyond_mm) for span, beyond_mm in held}
     whole = channels.around(index, channels.reach_mm).difference(shapely.union_all(list(sides.values())))
     parts = [_without_crumbs(whole) if sides else whole, channels.around(index, channels.face_mm)]
-    for span, side in sides.items():
-        rest = _rest(channels, index, span, prolonged_mm(span, config))
+    for (span, beyond_mm), side in sides.items():
+        rest = _rest(channels, index, span, beyond_mm)
         if rest is not None and rest.dwithin(side, channels.reach_mm):
             again = rest.buffer(channels.reach_mm, quad_segs=32).intersection(side)
             parts.append(_without_crumbs(again))
