@@ -151,10 +151,12 @@ class _Picture:
         right, lower = (math.ceil(v) + reach for v in points.max(axis=0))
         image = Image.new("L", (right - left, lower - upper), 0)
         canvas = ImageDraw.Draw(image)
-        for (x, y), level in zip(points - np.array([left, upper]), above[inside], strict=True):
-            half = radius * math.sqrt(1 - level**2) * self._scale
-            flat = half * math.sin(TILT_RAD)
-            canvas.ellipse((x - half, y - flat, x + half, y + flat), fill=round(1 + 127 * (1 + level)))
+        level, middles = above[inside], points - np.array([left, upper])
+        half = radius * np.sqrt(1 - level**2) * self._scale
+        reaches = np.column_stack([half, half * math.sin(TILT_RAD)])
+        boxes = np.concatenate([middles - reaches, middles + reaches], axis=1)
+        for box, fill in zip(boxes.tolist(), np.rint(1 + 127 * (1 + level)).astype(int).tolist(), strict=True):
+            canvas.ellipse(box, fill=fill)
         mask = np.asarray(image)
         painted = mask > 0
         self.pixels[upper:lower, left:right][painted] = _shades(wire.colour)[mask[painted]]

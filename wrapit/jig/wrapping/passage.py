@@ -10,6 +10,7 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import lengths
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
 
@@ -78,15 +79,24 @@ def _held_side(channels: Channels, span: Turn, beyond_mm: float) -> Any:
 def _rest(channels: Channels, index: int, span: Turn, beyond_mm: float) -> Any:
     """The rest of the wire, beyond what lies beside the span's own ends; None if that is nothing."""
     import shapely
-    from shapely.ops import substring
 
     apart = beyond_mm + BEYOND_MM + 2 * channels.reach_mm
     parts = []
     line = channels.lines[index]
     for low, high in ((0.0, span.start_mm - apart), (span.end_mm + apart, line.length)):
         if high - low > STEP_MM:
-            parts.append(substring(line, low, high))
+            parts.append(_stretch(line, low, high))
     return shapely.union_all(parts) if parts else None
+
+
+def _stretch(line: Any, low: float, high: float) -> Any:
+    """A line (shapely) between two lengths along it; shapely's own goes from point to point."""
+    import shapely
+
+    points = shapely.get_coordinates(line)
+    along = lengths(points)
+    ends = shapely.get_coordinates(shapely.line_interpolate_point(line, [low, high]))
+    return shapely.LineString([ends[0], *points[(along > low) & (along < high)], ends[1]])
 
 
 def beside(points: FloatArray, normals: FloatArray, side: float, near_mm: float, far_mm: float) -> Any:
