@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wrapit.geometry.arrays import FloatArray, IntArray, locked, unit
+from wrapit.geometry.arrays import FloatArray, IntArray, locked, norms, unit
 
 # Gauss's rule for the length of each quarter of a Bézier: of 300 random ones in a square of 20 mm, half are
 # exact to 4e-15 mm; 1 in 100 errs by 5e-4 mm or more, the worst by 1.5e-3: those that all but have a cusp.
@@ -63,7 +63,7 @@ class BezierChain:
     def lengths(self) -> FloatArray:
         """Arc length of each Bézier, (n,)."""
         quarters = np.concatenate([part for half in split(self.points, 0.5) for part in split(half, 0.5)])
-        speed = np.linalg.norm(derivative(quarters, QUARTER_NODES), axis=-1)
+        speed = norms(derivative(quarters, QUARTER_NODES))
         return (speed @ QUARTER_WEIGHTS).reshape(4, -1).sum(axis=0)
 
     @property
@@ -139,6 +139,6 @@ def _bernstein(t: FloatArray) -> FloatArray:
 def _leaving(control: FloatArray) -> FloatArray:
     """Direction from the first control point to the first one apart from it."""
     apart = control - control[0]
-    far = np.linalg.norm(apart, axis=1)
+    far = norms(apart)
     index = int(np.argmax(far > 1e-9 * max(1.0, float(far.max()))))
     return unit(apart[index])

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wrapit.geometry.arrays import FloatArray, IntArray, unit
+from wrapit.geometry.arrays import FloatArray, IntArray, norms, unit
 from wrapit.geometry.bezier import BezierChain, evaluate, split
 
 # How short and straight pieces are: then the best of nine starts leads Newton's steps to the nearest point.
@@ -89,7 +89,7 @@ class CurveSet:
         """Points (m, 2), unit tangents (m, 2) and signed curvatures (m,) at places."""
         piece, t = self.split_place(curve, at)
         point, d, dd = _values(_by_axis(self.pieces[piece]), t)
-        curvature = (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(_norms(d), 1e-12) ** 3
+        curvature = (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(norms(d.T), 1e-12) ** 3
         return point.T, unit(d.T), curvature
 
     def nearest(self, points: FloatArray, reach_mm: float) -> Nearest:
@@ -152,7 +152,7 @@ class CurveSet:
         place = (np.arange(len(self.pieces))[:, None] + t).ravel()
         piece = np.repeat(np.arange(len(self.pieces)), len(t))
         _, d, dd = _values(_by_axis(self.pieces[piece]), np.tile(t, len(self.pieces)))
-        return place, (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(_norms(d), 1e-12) ** 3
+        return place, (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(norms(d.T), 1e-12) ** 3
 
     @cached_property
     def _between_starts(self) -> FloatArray:
@@ -197,11 +197,6 @@ def _by_axis(points: FloatArray) -> FloatArray:
     return np.ascontiguousarray(np.moveaxis(points, 0, -1))
 
 
-def _norms(vectors: FloatArray) -> FloatArray:
-    """Lengths (m,) of vectors (2, m)."""
-    return np.asarray(np.sqrt(vectors[0] * vectors[0] + vectors[1] * vectors[1]))
-
-
 def _values(cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Point, first and second derivative of cubic i of (4, 2, m) at t[i]: (2, m) each."""
     s = 1 - t
@@ -236,4 +231,4 @@ def _descended(points: FloatArray, cubics: FloatArray, t: FloatArray) -> tuple[F
         # Gauss-Newton where the full second derivative would lead uphill.
         step = slope / np.where(full > 0.1 * bend, full, np.maximum(bend, 1e-18))
         t = np.clip(t - np.clip(step, -0.2, 0.2), 0.0, 1.0)
-    return t, _norms(_values(cubics, t)[0] - points)
+    return t, norms((_values(cubics, t)[0] - points).T)

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wrapit.geometry.arrays import FloatArray, unit
+from wrapit.geometry.arrays import FloatArray, norms, unit
 from wrapit.geometry.bezier import BezierChain, evaluate
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, Point, point_of
@@ -143,7 +143,7 @@ def _parallel_points(cubics: FloatArray, t: FloatArray, offset: float) -> tuple[
     point = s**3 * p0 + 3 * s**2 * u * p1 + 3 * s * u**2 * p2 + u**3 * p3
     d = 3 * (s**2 * (p1 - p0) + 2 * s * u * (p2 - p1) + u**2 * (p3 - p2))
     dd = 6 * (s * (p2 - 2 * p1 + p0) + u * (p3 - 2 * p2 + p1))
-    speed = np.maximum(np.linalg.norm(d, axis=1), 1e-12)[:, None]
+    speed = np.maximum(norms(d), 1e-12)[:, None]
     normal = np.column_stack([-d[:, 1], d[:, 0]]) / speed
     curvature = (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0])[:, None] / speed**3
     return point + offset * normal, d * (1 - offset * curvature)
@@ -180,7 +180,7 @@ def _normal_error(
     """How far each cubic strays sideways from the true parallel, (n,)."""
     true, along = _at_several(pieces, _between(low, high, _CHECKS), offset)
     apart = evaluate(cubics, _CHECKS).swapaxes(0, 1) - true
-    norm = np.maximum(np.linalg.norm(along, axis=2), 1e-12)
+    norm = np.maximum(norms(along), 1e-12)
     aside = np.abs(along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]) / norm
     return np.asarray(aside.max(axis=0))
 

@@ -96,7 +96,8 @@ def _stretch(line: Any, low: float, high: float) -> Any:
     points = shapely.get_coordinates(line)
     along = lengths(points)
     ends = shapely.get_coordinates(shapely.line_interpolate_point(line, [low, high]))
-    return shapely.LineString([ends[0], *points[(along > low) & (along < high)], ends[1]])
+    between = points[(along > low) & (along < high)]
+    return shapely.LineString(np.concatenate([ends[:1], between, ends[1:]]))
 
 
 def beside(points: FloatArray, normals: FloatArray, side: float, near_mm: float, far_mm: float) -> Any:
