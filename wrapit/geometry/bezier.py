@@ -80,9 +80,17 @@ class BezierChain:
         return BezierChain(self.points @ np.asarray(matrix, dtype=np.float64).T + np.asarray(offset))
 
     def sampled(self, step: float) -> FloatArray:
-        """Points (m, 2) along the chain, both ends included, at most about `step` apart."""
-        counts = np.maximum(np.ceil(self.lengths / step).astype(np.int64), 1)
-        return np.concatenate([self.start[None], evenly_evaluated(self.points, counts)])
+        """Points (m, 2) along the chain, both ends included, at most about `step` apart; write-locked."""
+        if step not in self._sampled:  # outlines are asked two and three times for the same
+            counts = np.maximum(np.ceil(self.lengths / step).astype(np.int64), 1)
+            points = np.concatenate([self.start[None], evenly_evaluated(self.points, counts)])
+            points.setflags(write=False)
+            self._sampled[step] = points
+        return self._sampled[step]
+
+    @cached_property
+    def _sampled(self) -> dict[float, FloatArray]:
+        return {}
 
 
 def joined(chains: Iterable[BezierChain]) -> BezierChain:
