@@ -31,7 +31,7 @@ def norms(vectors: FloatArray) -> FloatArray:
 
 def unit(vector: FloatArray) -> FloatArray:
     """The vector at length one (zero stays zero); works on (2,), (n, 2) and (n, 3)."""
-    norm = np.linalg.norm(vector, axis=-1, keepdims=True)
+    norm = np.sqrt(np.add.reduce(vector * vector, axis=-1, keepdims=True))
     return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=norm > 0)
 
 
