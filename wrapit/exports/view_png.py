@@ -155,7 +155,8 @@ class _Picture:
         half = radius * np.sqrt(1 - level**2) * self._scale
         reaches = np.column_stack([half, half * math.sin(TILT_RAD)])
         boxes = np.concatenate([middles - reaches, middles + reaches], axis=1)
-        for box, fill in zip(boxes.tolist(), np.rint(1 + 127 * (1 + level)).astype(int).tolist(), strict=True):
+        fills = np.rint(1 + 127 * (1 + level)).astype(int)
+        for box, fill in zip(boxes.tolist(), fills.tolist(), strict=True):
             canvas.ellipse(box, fill=fill)
         mask = np.asarray(image)
         painted = mask > 0

@@ -110,7 +110,7 @@ def evaluate(points: FloatArray, t: FloatArray) -> FloatArray:
 
 
 def evenly_evaluated(points: FloatArray, counts: IntArray) -> FloatArray:
-    """Points at the parameters 1/c, 2/c … 1 of each cubic (n, 4, 2), c its own of the counts (n,): (sum, 2)."""
+    """Points at parameters 1/c, 2/c … 1 of each cubic (n, 4, 2), c its own of the counts (n,): (sum, 2)."""
     which = np.repeat(np.arange(len(points)), counts)
     place = np.arange(1, len(which) + 1) - np.repeat(np.cumsum(counts) - counts, counts)
     return np.einsum("km,mkd->md", _bernstein(place / counts[which]), points[which])

@@ -188,6 +188,7 @@ def _agrees(loop: Loop, expected: Polygon) -> bool:
     for one, other in ((found, expected), (expected, found)):
         line = other.boundary
         prepare(line)
-        if not dwithin(line, points(get_coordinates(one.exterior.segmentize(0.1))), OFFSET_TOLERANCE_MM).all():
+        places = points(get_coordinates(one.exterior.segmentize(0.1)))
+        if not dwithin(line, places, OFFSET_TOLERANCE_MM).all():
             return False
     return True

@@ -7,7 +7,7 @@ import numpy as np
 from wrapit.geometry import FloatArray, IntArray
 
 # Most points of the taut wire that drawn ones are matched with. Time and memory grow with their number times
-# that of the drawn points: as many of each take 0.26 s and 64 MB, twice as many 1.0 s and 256 MB. The
+# that of the drawn points: as many of each take 0.25 s and 128 MB, twice as many four times that. The
 # distance is taken to the wire between them: only the order depends on it.
 MOST_SAMPLES = 4000
 
