@@ -11,6 +11,7 @@ import numpy as np
 
 from wrapit.geometry.arrays import FloatArray, IntArray, norms, unit
 from wrapit.geometry.bezier import BezierChain, evaluate, split
+from wrapit.geometry.polyline import steps
 
 # How short and straight pieces are: then the best of nine starts leads Newton's steps to the nearest point.
 # A third more or less leaves the walls of two of our drawings as they are, but for one handover.
@@ -177,8 +178,9 @@ class CurveSet:
 def _short_pieces(cubic: FloatArray) -> FloatArray:
     """The cubic (4, 2), cut in 1, 2, 4 … equal parts until short and nearly straight: (n, 4, 2)."""
     legs = np.diff(cubic, axis=0)
-    length = float(np.linalg.norm(legs, axis=1).sum())
-    directions = legs[np.linalg.norm(legs, axis=1) > 1e-9 * max(length, 1e-9)]
+    sizes = steps(cubic)
+    length = float(sizes.sum())
+    directions = legs[sizes > 1e-9 * max(length, 1e-9)]
     turning = 0.0
     if len(directions) > 1:
         a, b = directions[:-1], directions[1:]
