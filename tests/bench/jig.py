@@ -24,6 +24,7 @@ from wrapit.jig.printed.smoothed import smoothed
 from wrapit.jig.printed.stage import build_jig
 from wrapit.jig.support import total_support
 from wrapit.jig.wall_ground import wall_ground
+from wrapit.jig.wrapping.passage import prolonged_mm
 from wrapit.kernel.edges import region_face
 from wrapit.kernel.measures import volume_mm3
 from wrapit.wires.model import Wire
@@ -62,7 +63,7 @@ def naive_seconds(wires: tuple[Wire, ...], config: JigConfig) -> tuple[float, in
     booleans = 0
     for wire in wires:
         for turn in wire.turns:
-            ground = wall_ground(channels, turn, config, config.wall_thickness)
+            ground = wall_ground(channels, turn, prolonged_mm(turn, config), config.wall_thickness)
             solid = _prism(_fitted_face(ground), top - 0.1, 5.1)
             for slot in slots:
                 solid = BRepAlgoAPI_Cut(solid, slot).Shape()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,7 +25,8 @@ PAPER, PLATE, PLATE_EDGE, HOLE = (250, 249, 246), (224, 224, 222), (188, 188, 18
 WALL, WALL_EDGE, SHADOW = (190, 193, 198), (150, 153, 158), (196, 196, 194)
 TAUT, TAUT_MM = (40, 44, 52), 0.15
 MARGIN_MM = 3.0
-PIECE_MM = 1.5  # a wire is painted in pieces this short, which can't cross themselves
+# A wire is painted in pieces this short, which can't cross themselves, each with points every 2 px.
+PIECE_MM, PIECE_POINTS = 1.5, 24
 
 
 def write_preview(
@@ -89,7 +89,7 @@ class _View:
 
     def px(self, points: FloatArray) -> list[tuple[float, float]]:
         moved = (points - self._origin) * np.array([1.0, -1.0]) * self.px_per_mm
-        return [(float(x), float(y)) for x, y in moved]
+        return [(x, y) for x, y in moved.tolist()]
 
 
 def _draw_walls(
@@ -101,14 +101,16 @@ def _draw_walls(
     for offset_mm, fill, edge in ((0.5, SHADOW, SHADOW), (0.0, WALL, WALL_EDGE)):
         shift = np.array([offset_mm, -offset_mm])
         for wall in walls:
+            outer, *holes = (view.px(loop.sampled(0.01) + shift) for loop in (wall.outer, *wall.holes))
             mask = Image.new("1", view.size_px, 0)
             inside = ImageDraw.Draw(mask)
-            inside.polygon(view.px(wall.outer.sampled(0.01) + shift), fill=1)
-            for hole in wall.holes:
-                inside.polygon(view.px(hole.sampled(0.01) + shift), fill=0)
-            image.paste(fill, (0, 0), mask)
-            for loop in (wall.outer, *wall.holes):
-                outline = view.px(loop.sampled(0.01) + shift)
+            inside.polygon(outer, fill=1)
+            for hole in holes:
+                inside.polygon(hole, fill=0)
+            box = mask.getbbox()
+            if box is not None:
+                image.paste(fill, box, mask.crop(box))
+            for outline in (outer, *holes):
                 canvas.line([*outline, outline[0]], fill=edge, width=SUPERSAMPLING)
 
 
@@ -135,7 +137,7 @@ def _draw_span(
     canvas: ImageDraw.ImageDraw, view: _View, wire: Wire, lengths: ArcLength, start_mm: float, end_mm: float
 ) -> None:
     """One pass, from its dark rim to a light line; the lighter bands reach farther, so no seam shows."""
-    from shapely import LineString
+    from shapely import buffer, get_parts, linestrings
 
     base = np.array([int(wire.colour.lstrip("#")[index : index + 2], 16) for index in (0, 2, 4)], dtype=float)
     bands = [
@@ -150,12 +152,11 @@ def _draw_span(
         high = min(lengths.total_mm, end_mm + reach * wire.diameter_mm)
         fill = tuple(round(float(value)) for value in colour)
         cuts = np.linspace(low, high, max(1, round((high - low) / PIECE_MM)) + 1)
-        for begin, finish in itertools.pairwise(cuts):
-            at_mm = np.linspace(max(low, begin - 0.05), finish, 24)
-            points = wire.centreline.at(lengths.parameter(at_mm)) + towards_light * light
-            outline = LineString(points).buffer(share * wire.diameter_mm / 2, cap_style="flat")
-            for part in getattr(outline, "geoms", [outline]):
-                canvas.polygon(view.px(np.array(part.exterior.coords)), fill=fill)
+        at_mm = np.linspace(np.maximum(low, cuts[:-1] - 0.05), cuts[1:], PIECE_POINTS, axis=1)
+        points = wire.centreline.at(lengths.parameter(at_mm.ravel())) + towards_light * light
+        lines = linestrings(points.reshape(-1, PIECE_POINTS, 2))
+        for part in get_parts(buffer(lines, share * wire.diameter_mm / 2, quad_segs=16, cap_style="flat")):
+            canvas.polygon(view.px(np.array(part.exterior.coords)), fill=fill)
         for end in (0.0, lengths.total_mm):
             if low <= end <= high:
                 (x, y), *_ = view.px(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, Line
-from wrapit.geometry.arrays import unit
+from wrapit.geometry.arrays import norms, unit
 from wrapit.geometry.bezier import derivative, evaluate
 from wrapit.geometry.outlines.closing import SHORT_MM
 from wrapit.geometry.polyline import steps
@@ -82,7 +82,7 @@ def _merged(before: FloatArray, after: FloatArray) -> FloatArray | None:
     got, along = evaluate(cubic[None], places)[0], unit(derivative(cubic[None], places)[0])
     own = evaluate(np.stack([before, after]), _PLACES).reshape(-1, 2)
     apart = own[:, None] - got
-    nearest = np.linalg.norm(apart, axis=2).argmin(axis=1)
+    nearest = norms(apart).argmin(axis=1)
     rest = apart[np.arange(len(own)), nearest]
     aside = rest[:, 0] * along[nearest, 1] - rest[:, 1] * along[nearest, 0]
     return cubic if float(np.abs(aside).max()) <= MERGED_MM else None

@@ -90,7 +90,7 @@ class _Picture:
 
     def _px(self, points: FloatArray) -> list[tuple[float, float]]:
         moved = (self._turned(points) - self._origin) * np.array([1.0, -1.0]) * self._scale
-        return [(float(x), float(y)) for x, y in moved]
+        return [(x, y) for x, y in moved.tolist()]
 
     def _stencil(self, regions: Sequence[Region]) -> _Stencil:
         from PIL import Image, ImageDraw
@@ -151,16 +151,24 @@ class _Picture:
         right, lower = (math.ceil(v) + reach for v in points.max(axis=0))
         image = Image.new("L", (right - left, lower - upper), 0)
         canvas = ImageDraw.Draw(image)
-        for (x, y), level in zip(points - np.array([left, upper]), above[inside], strict=True):
-            half = radius * math.sqrt(1 - level**2) * self._scale
-            flat = half * math.sin(TILT_RAD)
-            canvas.ellipse((x - half, y - flat, x + half, y + flat), fill=round(1 + 127 * (1 + level)))
+        level, middles = above[inside], points - np.array([left, upper])
+        half = radius * np.sqrt(1 - level**2) * self._scale
+        reaches = np.column_stack([half, half * math.sin(TILT_RAD)])
+        boxes = np.concatenate([middles - reaches, middles + reaches], axis=1)
+        fills = np.rint(1 + 127 * (1 + level)).astype(int)
+        for box, fill in zip(boxes.tolist(), fills.tolist(), strict=True):
+            canvas.ellipse(box, fill=fill)
         mask = np.asarray(image)
         painted = mask > 0
-        base = np.array([int(wire.colour[i : i + 2], 16) for i in (1, 3, 5)], dtype=float)
-        level_px = (mask[painted][:, None] - 1) / 254
-        shade = base * (0.45 + 0.55 * level_px) + 90 * np.maximum(level_px - 0.75, 0) * 4
-        self.pixels[upper:lower, left:right][painted] = np.minimum(shade, 255)
+        self.pixels[upper:lower, left:right][painted] = _shades(wire.colour)[mask[painted]]
+
+
+def _shades(colour: str) -> NDArray[np.uint8]:
+    """The wire's colour from dark (1) to its light line (255); 0 is not painted: (256, 3)."""
+    base = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)], dtype=float)
+    level = np.maximum(np.arange(256)[:, None] - 1, 0) / 254
+    shade = base * (0.45 + 0.55 * level) + 90 * np.maximum(level - 0.75, 0) * 4
+    return np.minimum(shade, 255).astype(np.uint8)
 
 
 @dataclass(frozen=True, eq=False)

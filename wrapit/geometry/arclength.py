@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from wrapit.geometry.arrays import FloatArray
+from wrapit.geometry.arrays import FloatArray, norms
 from wrapit.geometry.bezier import QUARTER_NODES, QUARTER_WEIGHTS, BezierChain, derivative, split
 from wrapit.geometry.bspline import BSpline
 
@@ -57,7 +57,7 @@ class ArcLength:
             excess = self.length(u) - at_mm
             if steps >= NEWTON_STEPS and np.abs(excess).max(initial=0.0) <= NEAR_MM:
                 break
-            speed = np.maximum(np.linalg.norm(self.spline.derivative(u), axis=1), 1e-9)
+            speed = np.maximum(norms(self.spline.derivative(u)), 1e-9)
             u = np.clip(u - excess / speed, table_u[piece], table_u[piece + 1])
         return u
 
@@ -67,7 +67,7 @@ class ArcLength:
         piece = np.clip(np.searchsorted(table_u, u, side="right") - 1, 0, len(table_u) - 2)
         widths = u - table_u[piece]
         inner = table_u[piece][:, None] + widths[:, None] * _NODES
-        speed = np.linalg.norm(self.spline.derivative(inner.ravel()), axis=1).reshape(-1, len(_NODES))
+        speed = norms(self.spline.derivative(inner.ravel())).reshape(-1, len(_NODES))
         return table_s[piece] + (speed @ _WEIGHTS) * widths
 
     def stations(self, step_mm: float) -> FloatArray:
@@ -80,13 +80,13 @@ class ArcLength:
         pieces = []
         for low, high in itertools.pairwise(breaks):
             u = low + (high - low) * _NODES
-            rough = float(np.linalg.norm(self.spline.derivative(u), axis=1) @ _WEIGHTS) * (high - low)
+            rough = float(norms(self.spline.derivative(u)) @ _WEIGHTS) * (high - low)
             count = max(4, int(np.ceil(rough / self.step_mm)))
             pieces.append(np.linspace(low, high, count + 1)[:-1])
         u = np.append(np.concatenate(pieces), breaks[-1])
         widths = np.diff(u)
         inner = (u[:-1, None] + widths[:, None] * _NODES).ravel()
-        speed = np.linalg.norm(self.spline.derivative(inner), axis=1).reshape(-1, len(_NODES))
+        speed = norms(self.spline.derivative(inner)).reshape(-1, len(_NODES))
         return u, np.concatenate([[0.0], np.cumsum((speed @ _WEIGHTS) * widths)])
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wrapit.geometry.arrays import FloatArray, locked, unit
+from wrapit.geometry.arrays import FloatArray, IntArray, locked, norms, unit
 
 # Gauss's rule for the length of each quarter of a Bézier: of 300 random ones in a square of 20 mm, half are
 # exact to 4e-15 mm; 1 in 100 errs by 5e-4 mm or more, the worst by 1.5e-3: those that all but have a cusp.
@@ -63,7 +63,7 @@ class BezierChain:
     def lengths(self) -> FloatArray:
         """Arc length of each Bézier, (n,)."""
         quarters = np.concatenate([part for half in split(self.points, 0.5) for part in split(half, 0.5)])
-        speed = np.linalg.norm(derivative(quarters, QUARTER_NODES), axis=-1)
+        speed = norms(derivative(quarters, QUARTER_NODES))
         return (speed @ QUARTER_WEIGHTS).reshape(4, -1).sum(axis=0)
 
     @property
@@ -80,12 +80,17 @@ class BezierChain:
         return BezierChain(self.points @ np.asarray(matrix, dtype=np.float64).T + np.asarray(offset))
 
     def sampled(self, step: float) -> FloatArray:
-        """Points (m, 2) along the chain, both ends included, at most about `step` apart."""
-        parts = [self.start[None]]
-        for cubic, length in zip(self.points, self.lengths, strict=True):
-            count = max(1, int(np.ceil(length / step)))
-            parts.append(evaluate(cubic[None], np.arange(1, count + 1) / count)[0])
-        return np.concatenate(parts)
+        """Points (m, 2) along the chain, both ends included, at most about `step` apart; write-locked."""
+        if step not in self._sampled:  # outlines are asked two and three times for the same
+            counts = np.maximum(np.ceil(self.lengths / step).astype(np.int64), 1)
+            points = np.concatenate([self.start[None], evenly_evaluated(self.points, counts)])
+            points.setflags(write=False)
+            self._sampled[step] = points
+        return self._sampled[step]
+
+    @cached_property
+    def _sampled(self) -> dict[float, FloatArray]:
+        return {}
 
 
 def joined(chains: Iterable[BezierChain]) -> BezierChain:
@@ -101,9 +106,14 @@ def straight(start: ArrayLike, end: ArrayLike) -> BezierChain:
 
 def evaluate(points: FloatArray, t: FloatArray) -> FloatArray:
     """Points at parameters `t` (m,) of cubics (n, 4, 2): (n, m, 2)."""
-    s = 1 - t
-    basis = np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3])
-    return np.einsum("kt,nkd->ntd", basis, points)
+    return np.einsum("kt,nkd->ntd", _bernstein(t), points)
+
+
+def evenly_evaluated(points: FloatArray, counts: IntArray) -> FloatArray:
+    """Points at parameters 1/c, 2/c … 1 of each cubic (n, 4, 2), c its own of the counts (n,): (sum, 2)."""
+    which = np.repeat(np.arange(len(points)), counts)
+    place = np.arange(1, len(which) + 1) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.einsum("km,mkd->md", _bernstein(place / counts[which]), points[which])
 
 
 def derivative(points: FloatArray, t: FloatArray) -> FloatArray:
@@ -128,9 +138,15 @@ def split(points: FloatArray, t: float) -> tuple[FloatArray, FloatArray]:
     return np.stack(left, axis=1), np.stack(right[::-1], axis=1)
 
 
+def _bernstein(t: FloatArray) -> FloatArray:
+    """Shares of a cubic's four control points at parameters (m,): (4, m)."""
+    s = 1 - t
+    return np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3])
+
+
 def _leaving(control: FloatArray) -> FloatArray:
     """Direction from the first control point to the first one apart from it."""
     apart = control - control[0]
-    far = np.linalg.norm(apart, axis=1)
+    far = norms(apart)
     index = int(np.argmax(far > 1e-9 * max(1.0, float(far.max()))))
     return unit(apart[index])

@@ -52,13 +52,35 @@ class BSpline:
 
     def derivative(self, u: FloatArray, order: int = 1) -> FloatArray:
         """Derivatives at parameters (m,): (m, 2)."""
-        return self._pieces.derivative(order)(u)
+        if order not in self._derivatives:
+            self._derivatives[order] = self._pieces.derivative(order)
+        return np.asarray(self._derivatives[order](u))
 
     def curvature(self, u: FloatArray) -> FloatArray:
         """Signed curvature at parameters (m,), positive where the curve turns left."""
         d, dd = self.derivative(u), self.derivative(u, 2)
         speed = np.linalg.norm(d, axis=1)
         return (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
+
+    @cached_property
+    def chain(self) -> BezierChain:
+        """See `chain_of`."""
+        if self.degree != 3:
+            raise ValueError(f"only cubic splines become cubic Béziers, not degree {self.degree}")
+        cubics = [
+            [_blossom(self, index, values) for values in ((a, a, a), (a, a, b), (a, b, b), (b, b, b))]
+            for index, (a, b) in enumerate(itertools.pairwise(self.knots))
+            if b > a
+        ]
+        points = np.array(cubics)
+        points[1:, 0] = points[:-1, 3]
+        points[0, 0], points[-1, 3] = self.poles[0], self.poles[-1]
+        return BezierChain(points)
+
+    @cached_property
+    def _derivatives(self) -> dict[int, Any]:
+        """Those of `_pieces` that were asked for, by their order."""
+        return {}
 
     @cached_property
     def _pieces(self) -> Any:
@@ -98,18 +120,7 @@ def chain_of(spline: BSpline) -> BezierChain:
 
     Control points are the spline's blossoms at the span's ends (Ramshaw 1987), so corners stay corners.
     """
-    if spline.degree != 3:
-        raise ValueError(f"only cubic splines become cubic Béziers, not degree {spline.degree}")
-    knots = spline.knots
-    cubics = [
-        [_blossom(spline, index, values) for values in ((a, a, a), (a, a, b), (a, b, b), (b, b, b))]
-        for index, (a, b) in enumerate(itertools.pairwise(knots))
-        if b > a
-    ]
-    points = np.array(cubics)
-    points[1:, 0] = points[:-1, 3]
-    points[0, 0], points[-1, 3] = spline.poles[0], spline.poles[-1]
-    return BezierChain(points)
+    return spline.chain
 
 
 def _knot_steps(points: FloatArray) -> tuple[list[float], list[bool]]:

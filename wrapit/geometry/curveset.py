@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from wrapit.geometry.arrays import FloatArray, IntArray, unit
+from wrapit.geometry.arrays import FloatArray, IntArray, norms, unit
 from wrapit.geometry.bezier import BezierChain, evaluate, split
+from wrapit.geometry.polyline import steps
 
 # How short and straight pieces are: then the best of nine starts leads Newton's steps to the nearest point.
 # A third more or less leaves the walls of two of our drawings as they are, but for one handover.
@@ -88,11 +89,9 @@ class CurveSet:
     def frame(self, curve: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Points (m, 2), unit tangents (m, 2) and signed curvatures (m,) at places."""
         piece, t = self.split_place(curve, at)
-        cubics = self.pieces[piece]
-        point, d, dd = _values(cubics, t)
-        speed = np.linalg.norm(d, axis=1)
-        curvature = (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.maximum(speed, 1e-12) ** 3
-        return point, unit(d), curvature
+        point, d, dd = _values(_by_axis(self.pieces[piece]), t)
+        curvature = (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(norms(d.T), 1e-12) ** 3
+        return point.T, unit(d.T), curvature
 
     def nearest(self, points: FloatArray, reach_mm: float) -> Nearest:
         """The nearest place within reach of each point (m, 2)."""
@@ -153,9 +152,8 @@ class CurveSet:
         t = (1 - np.cos(np.linspace(0.0, np.pi, _CURVATURE_SAMPLES))) / 2
         place = (np.arange(len(self.pieces))[:, None] + t).ravel()
         piece = np.repeat(np.arange(len(self.pieces)), len(t))
-        _, d, dd = _values(self.pieces[piece], np.tile(t, len(self.pieces)))
-        speed = np.maximum(np.linalg.norm(d, axis=1), 1e-12)
-        return place, (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / speed**3
+        _, d, dd = _values(_by_axis(self.pieces[piece]), np.tile(t, len(self.pieces)))
+        return place, (d[0] * dd[1] - d[1] * dd[0]) / np.maximum(norms(d.T), 1e-12) ** 3
 
     @cached_property
     def _between_starts(self) -> FloatArray:
@@ -180,8 +178,9 @@ class CurveSet:
 def _short_pieces(cubic: FloatArray) -> FloatArray:
     """The cubic (4, 2), cut in 1, 2, 4 … equal parts until short and nearly straight: (n, 4, 2)."""
     legs = np.diff(cubic, axis=0)
-    length = float(np.linalg.norm(legs, axis=1).sum())
-    directions = legs[np.linalg.norm(legs, axis=1) > 1e-9 * max(length, 1e-9)]
+    sizes = steps(cubic)
+    length = float(sizes.sum())
+    directions = legs[sizes > 1e-9 * max(length, 1e-9)]
     turning = 0.0
     if len(directions) > 1:
         a, b = directions[:-1], directions[1:]
@@ -195,11 +194,15 @@ def _short_pieces(cubic: FloatArray) -> FloatArray:
     return part
 
 
+def _by_axis(points: FloatArray) -> FloatArray:
+    """Points (m, …, 2) as (…, 2, m): what is reckoned of many at once takes a third of the time so."""
+    return np.ascontiguousarray(np.moveaxis(points, 0, -1))
+
+
 def _values(cubics: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Point, first and second derivative of cubic i at t[i]: (m, 2) each."""
-    s = (1 - t)[:, None]
-    t = t[:, None]
-    p0, p1, p2, p3 = (cubics[:, k] for k in range(4))
+    """Point, first and second derivative of cubic i of (4, 2, m) at t[i]: (2, m) each."""
+    s = 1 - t
+    p0, p1, p2, p3 = cubics
     point = s**3 * p0 + 3 * s**2 * t * p1 + 3 * s * t**2 * p2 + t**3 * p3
     first = 3 * (s**2 * (p1 - p0) + 2 * s * t * (p2 - p1) + t**2 * (p3 - p2))
     second = 6 * (s * (p2 - 2 * p1 + p0) + t * (p3 - 2 * p2 + p1))
@@ -210,10 +213,8 @@ def _nearest_starts(points: FloatArray, cubics: FloatArray) -> tuple[FloatArray,
     """The best of nine parameters of cubic i for point i, and the distance there."""
     if not len(points):
         return np.empty(0), np.empty(0)
-    s = 1 - _STARTS
-    basis = np.stack([s**3, 3 * s**2 * _STARTS, 3 * s * _STARTS**2, _STARTS**3])
-    starts = np.einsum("kt,nkd->ntd", basis, cubics)
-    squared = ((starts - points[:, None]) ** 2).sum(axis=2)
+    apart = evaluate(cubics, _STARTS) - points[:, None]
+    squared = apart[..., 0] ** 2 + apart[..., 1] ** 2
     best = squared.argmin(axis=1)
     return _STARTS[best], np.sqrt(squared[np.arange(len(points)), best])
 
@@ -222,13 +223,14 @@ def _descended(points: FloatArray, cubics: FloatArray, t: FloatArray) -> tuple[F
     """Parameter and distance of the nearest point of cubic i to point i: Newton from a start."""
     if not len(points):
         return np.empty(0), np.empty(0)
+    points, cubics = _by_axis(points), _by_axis(cubics)
     for _ in range(_NEWTON_STEPS):
         point, d, dd = _values(cubics, t)
         apart = point - points
-        slope = (apart * d).sum(axis=1)
-        bend = (d * d).sum(axis=1)
-        full = bend + (apart * dd).sum(axis=1)
+        slope = apart[0] * d[0] + apart[1] * d[1]
+        bend = d[0] * d[0] + d[1] * d[1]
+        full = bend + (apart[0] * dd[0] + apart[1] * dd[1])
         # Gauss-Newton where the full second derivative would lead uphill.
         step = slope / np.where(full > 0.1 * bend, full, np.maximum(bend, 1e-18))
         t = np.clip(t - np.clip(step, -0.2, 0.2), 0.0, 1.0)
-    return t, np.linalg.norm(_values(cubics, t)[0] - points, axis=1)
+    return t, norms((_values(cubics, t)[0] - points).T)

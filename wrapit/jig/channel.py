@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from wrapit.config import JigConfig
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import ArcLength
-from wrapit.geometry.bezier import evaluate
+from wrapit.geometry.bezier import evenly_evaluated
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
 from wrapit.wires.model import Side, Turn, Wire
@@ -27,6 +27,9 @@ CHANNEL_PAD_MM = 3e-4
 CHANNEL_SLACK_MM = 1.2e-3
 # On which side of a wire a turn is held, as a factor of the left normal.
 SIDES: Final[dict[Side, float]] = {"left": 1.0, "right": -1.0}
+# How many groups of wires are remembered with what was measured of them, from one kind of jig to the next? As
+# many as are with their walls (`walls_and_pins`).
+_REMEMBERED = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +54,8 @@ class Channels:
 
     @staticmethod
     def of(wires: tuple[Wire, ...], config: JigConfig) -> Channels:
-        """The wires' channels with the configured clearance."""
-        return Channels(wires, config.clearance, min(config.inside_gap, config.clearance))
+        """The wires' channels with the configured clearance; one kind of jig gets those of another."""
+        return _remembered(wires, config.clearance, min(config.inside_gap, config.clearance))
 
     @property
     def diameter_mm(self) -> float:
@@ -136,8 +139,10 @@ class Channels:
         pieces = curves.pieces[curves.first[index] : curves.last[index] + 1]
         # The chord of a cubic strays by at most 1/8 of its largest second derivative (per unit parameter).
         second = 6 * np.linalg.norm(np.diff(pieces, n=2, axis=1), axis=2).max(axis=1)
-        counts = np.maximum(1, np.ceil(np.sqrt(second / (8 * SAGITTA_MM)))).astype(int)
-        parts = [pieces[:1, 0]]
-        for piece, count in zip(pieces, counts, strict=True):
-            parts.append(evaluate(piece[None], np.arange(1, count + 1) / count)[0])
-        return np.concatenate(parts)
+        counts = np.maximum(1, np.ceil(np.sqrt(second / (8 * SAGITTA_MM)))).astype(np.int64)
+        return np.concatenate([pieces[:1, 0], evenly_evaluated(pieces, counts)])
+
+
+@lru_cache(_REMEMBERED)
+def _remembered(wires: tuple[Wire, ...], clearance_mm: float, inside_gap_mm: float) -> Channels:
+    return Channels(wires, clearance_mm, inside_gap_mm)

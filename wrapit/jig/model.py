@@ -168,11 +168,15 @@ class SameShape:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A named, coloured solid; `solid` is a kernel shape that only `wrapit.kernel` looks into."""
+    """A named, coloured solid; `solid` is a kernel shape that only `wrapit.kernel` looks into.
+
+    `box_mm` are its least and its greatest x, y and z, (3,) each.
+    """
 
     name: str
     solid: Any
     colour: str
+    box_mm: tuple[FloatArray, FloatArray]
 
 
 @dataclass(frozen=True, eq=False)

@@ -78,7 +78,9 @@ def wall_polygons(
 def _ground(channels: Channels, held: Sequence[Turn], config: JigConfig, thickness_mm: float) -> Any:
     import shapely
 
-    return shapely.union_all([wall_ground(channels, span, config, thickness_mm) for span in held])
+    return shapely.union_all(
+        [wall_ground(channels, span, prolonged_mm(span, config), thickness_mm) for span in held]
+    )
 
 
 def rounded(ground: Any) -> Any:
@@ -87,12 +89,13 @@ def rounded(ground: Any) -> Any:
 
 
 @lru_cache(_REMEMBERED)
-def wall_ground(channels: Channels, turn: Turn, config: JigConfig, thickness_mm: float) -> Any:
+def wall_ground(channels: Channels, turn: Turn, beyond_mm: float, thickness_mm: float) -> Any:
     """The ground within wall thickness of a turn on its inside: all points c + x n, 0 ≤ x ≤ depth.
 
+    It goes on for `beyond_mm` past both ends of the turn.
     Where the turn is tighter than the depth, the rays cross at its centre and fill it: a solid post.
     """
-    depth, beyond_mm = channels.reach_mm + thickness_mm, prolonged_mm(turn, config)
+    depth = channels.reach_mm + thickness_mm
     _, points, normals, curvature = channels.stations(turn, STEP_MM, beyond_mm)
     fan_rad = float((np.abs(curvature[:-1]) * steps(points)).max())
     if fan_rad > FAN_RAD:

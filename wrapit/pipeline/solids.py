@@ -50,11 +50,10 @@ def judged_solids(
 def _write(made: Made, config: Config, folder: Path, suffix: str) -> Frames:
     """Writes the files; what was added to the piece's coordinates in each."""
     from wrapit.kernel.files import FilePart, write_printable, write_step
-    from wrapit.kernel.measures import box_mm
     from wrapit.kernel.objects import moved
 
     parts = [FilePart(part.name, part.solid, part.colour) for part in made.parts]
-    boxes = [box_mm(part.solid) for part in parts]
+    boxes = [part.box_mm for part in made.parts]
     frames: Frames = {}
     if "step" in config.outputs:
         places = side_by_side(boxes)

@@ -107,14 +107,13 @@ class Outliner:
         oblique = np.abs((tangents * away).sum(axis=1)) > SIDEWAYS * distance
         centres = _Points()
         known: dict[tuple[str, int, float], int] = {}
-        at = np.flatnonzero(on)
-        for index, (foot, slant, curve, side, mm) in enumerate(
-            zip(feet, oblique, near.curve[on], across, distance.tolist(), strict=True)
-        ):
-            name = (
-                ("round", centres.index(foot), mm) if slant else ("side", int(curve), math.copysign(mm, side))
+        told = (feet, oblique, near.curve[on], np.copysign(distance, across), distance)
+        key[on] = [
+            known.setdefault(
+                ("round", centres.index(foot), mm) if slant else ("side", curve, side_mm), len(known)
             )
-            key[at[index]] = known.setdefault(name, len(known))
+            for foot, slant, curve, side_mm, mm in zip(*(each.tolist() for each in told), strict=True)
+        ]
         place[on] = np.where(oblique, np.arctan2(away[:, 1], away[:, 0]), near.at[on])
         parallels = {number: self._parallel(*name, centres.points) for name, number in known.items()}
         return _grouped(points, key, place, parallels)
@@ -207,8 +206,8 @@ class _Points:
         self.points: list[tuple[float, float]] = []
         self._known: dict[tuple[int, int], int] = {}
 
-    def index(self, point: FloatArray) -> int:
-        key = (round(float(point[0]) * 1e6), round(float(point[1]) * 1e6))
+    def index(self, point: Sequence[float]) -> int:
+        key = (round(point[0] * 1e6), round(point[1] * 1e6))
         if key not in self._known:
             near = [self._known.get((key[0] + i, key[1] + j)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
             found = next((n for n in near if n is not None), None)
@@ -226,14 +225,12 @@ def _grouped(
     key = key.copy()
     jump = _jumps(points, key, place, parallels)
     keep = np.ones(len(points), dtype=bool)
-    for index in range(len(points)):
-        alone = jump[index - 1] and jump[index]
-        if alone:
-            neighbours = key[index - 1], key[(index + 1) % len(points)]
-            if min(neighbours) >= 0:
-                keep[index] = False
-            else:
-                key[index] = -1
+    for index in np.flatnonzero(jump & np.roll(jump, 1)).tolist():
+        neighbours = key[index - 1], key[(index + 1) % len(points)]
+        if min(neighbours) >= 0:
+            keep[index] = False
+        else:
+            key[index] = -1
     points, key, place = points[keep], key[keep], place[keep]
     jump = _jumps(points, key, place, parallels)
     cuts = np.flatnonzero(jump) + 1

@@ -11,9 +11,9 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from wrapit.geometry.arrays import FloatArray, unit
+from wrapit.geometry.arrays import FloatArray, norms, unit
 from wrapit.geometry.bezier import BezierChain, evaluate
 from wrapit.geometry.curveset import CurveSet
 from wrapit.geometry.outlines.loops import Arc, Edge, Line, Point, point_of
@@ -143,24 +143,33 @@ def _parallel_points(cubics: FloatArray, t: FloatArray, offset: float) -> tuple[
     point = s**3 * p0 + 3 * s**2 * u * p1 + 3 * s * u**2 * p2 + u**3 * p3
     d = 3 * (s**2 * (p1 - p0) + 2 * s * u * (p2 - p1) + u**2 * (p3 - p2))
     dd = 6 * (s * (p2 - 2 * p1 + p0) + u * (p3 - 2 * p2 + p1))
-    speed = np.maximum(np.linalg.norm(d, axis=1), 1e-12)[:, None]
+    speed = np.maximum(norms(d), 1e-12)[:, None]
     normal = np.column_stack([-d[:, 1], d[:, 0]]) / speed
     curvature = (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0])[:, None] / speed**3
     return point + offset * normal, d * (1 - offset * curvature)
 
 
+def _at_several(pieces: FloatArray, t: FloatArray, offset: float) -> tuple[FloatArray, FloatArray]:
+    """The parallel's points and derivatives at several parameters (s, n) of each piece: (s, n, 2) each."""
+    points, along = _parallel_points(np.tile(pieces, (len(t), 1, 1)), t.ravel(), offset)
+    return points.reshape(*t.shape, 2), along.reshape(*t.shape, 2)
+
+
+def _between(low: FloatArray, high: FloatArray, shares: ArrayLike) -> FloatArray:
+    """Parameters (s, n) at shares (s,) of the way from low to high."""
+    return low + np.asarray(shares)[:, None] * (high - low)
+
+
 def _hermite(pieces: FloatArray, low: FloatArray, high: FloatArray, offset: float) -> FloatArray:
     """One cubic for each piece from low to high, with the parallel's points and derivatives at both ends."""
-    start, leaving = _parallel_points(pieces, low, offset)
-    end, arriving = _parallel_points(pieces, high, offset)
+    (start, end), (leaving, arriving) = _at_several(pieces, np.stack([low, high]), offset)
     third = ((high - low) / 3)[:, None]
     return np.stack([start, start + third * leaving, end - third * arriving, end], axis=1)
 
 
 def _turning(pieces: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """How much each piece turns from low to high, (n,), from its tangents at five places."""
-    shares = (0.0, *_CHECKS, 1.0)
-    tangents = np.stack([_parallel_points(pieces, low + s * (high - low), 0.0)[1] for s in shares])
+    _, tangents = _at_several(pieces, _between(low, high, [0.0, *_CHECKS, 1.0]), 0.0)
     a, b = tangents[:-1], tangents[1:]
     return np.abs(np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2))).sum(axis=0)
 
@@ -169,15 +178,11 @@ def _normal_error(
     pieces: FloatArray, low: FloatArray, high: FloatArray, offset: float, cubics: FloatArray
 ) -> FloatArray:
     """How far each cubic strays sideways from the true parallel, (n,)."""
-    got = evaluate(cubics, _CHECKS)
-    worst = np.zeros(len(pieces))
-    for index, share in enumerate(_CHECKS):
-        t = low + share * (high - low)
-        true, along = _parallel_points(pieces, t, offset)
-        norm = np.maximum(np.linalg.norm(along, axis=1), 1e-12)
-        apart = got[:, index] - true
-        worst = np.maximum(worst, np.abs(along[:, 0] * apart[:, 1] - along[:, 1] * apart[:, 0]) / norm)
-    return worst
+    true, along = _at_several(pieces, _between(low, high, _CHECKS), offset)
+    apart = evaluate(cubics, _CHECKS).swapaxes(0, 1) - true
+    norm = np.maximum(norms(along), 1e-12)
+    aside = np.abs(along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]) / norm
+    return np.asarray(aside.max(axis=0))
 
 
 def _arc_like(arc: Arc, offset: float, start: FloatArray, end: FloatArray, *, forward: bool) -> Arc:

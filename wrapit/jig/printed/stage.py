@@ -60,14 +60,16 @@ def build_planned(planned: PlannedJigs, config: JigConfig) -> tuple[JigSet, tupl
 
 def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...]]:
     plan, made, findings = _solid(part, config)
-    from wrapit.kernel.measures import count_solids, size_mm
+    from wrapit.kernel.measures import box_mm, count_solids
 
     openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
     openings += [seat.pocket for seat in plan.seats]
+    low, high = box_mm(made.solid)
+    width, depth, height = (high - low).tolist()
     jig = Jig(
         name=plan.name,
         wires=plan.wires,
-        part=Part(plan.name, made.solid, COLOUR),
+        part=Part(plan.name, made.solid, COLOUR, (low, high)),
         walls=part.walls,
         plate=Region(plan.plate.outline.outer, tuple(openings)),
         plan=plan,
@@ -77,7 +79,7 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
         support=part.support,
         min_wall_to_wire_mm=part.gap_mm,
         hemmed=part.hemmed,
-        size_mm=size_mm(made.solid),
+        size_mm=(width, depth, height),
     )
     return jig, (*findings, *(_plain_outline(plan.name, place) for place in made.plain))
 

@@ -180,7 +180,7 @@ def moved_outline(loop: Loop, distance_mm: float, offset: Offset) -> Moved | Non
 
 def _agrees(loop: Loop, expected: Polygon) -> bool:
     """Whether each outline stays within the tolerance of the other."""
-    from shapely import Polygon, dwithin, points, prepare
+    from shapely import Polygon, dwithin, get_coordinates, points, prepare
 
     found = Polygon(loop.sampled(_FLAT_MM / 10))
     if not found.is_valid:
@@ -188,6 +188,7 @@ def _agrees(loop: Loop, expected: Polygon) -> bool:
     for one, other in ((found, expected), (expected, found)):
         line = other.boundary
         prepare(line)
-        if not dwithin(line, points(one.exterior.segmentize(0.1).coords), OFFSET_TOLERANCE_MM).all():
+        places = points(get_coordinates(one.exterior.segmentize(0.1)))
+        if not dwithin(line, places, OFFSET_TOLERANCE_MM).all():
             return False
     return True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 from wrapit.jig.channel import SIDES, Channels
@@ -13,6 +14,8 @@ from wrapit.wires.model import Side, Turn, Wire
 STEP_MM = 0.5
 # Free ground ends this far from a wall's own ends, so that it doesn't cut into them where the wire bends.
 APART_MM = 1.0
+# How many bands are remembered from one round of planning to the next: those of the largest piece.
+_REMEMBERED = 1000
 
 
 def free_sides(channels: Channels, held: Iterable[Turn], room_mm: float) -> Any:
@@ -45,6 +48,7 @@ def _loose(wire: Wire, side: Side, held: Iterable[Turn]) -> list[tuple[float, fl
     return loose
 
 
+@lru_cache(_REMEMBERED)
 def _band(channels: Channels, span: Turn, room_mm: float) -> Any:
     _, points, normals, _ = channels.stations(span, STEP_MM)
     reach = channels.reach_mm

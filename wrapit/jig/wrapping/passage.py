@@ -10,6 +10,7 @@ import numpy as np
 
 from wrapit.config import JigConfig
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import lengths
 from wrapit.jig.channel import SIDES, Channels
 from wrapit.wires.model import Turn
 
@@ -33,20 +34,23 @@ def passage(channels: Channels, held: Sequence[Turn], config: JigConfig) -> Any:
 
     if channels.face_mm == channels.reach_mm:
         return channels.area
-    mine = [tuple(span for span in held if span.wire == wire.name) for wire in channels.wires]
-    return shapely.union_all([_of_wire(channels, i, spans, config) for i, spans in enumerate(mine)])
+    mine = [
+        tuple((span, prolonged_mm(span, config)) for span in held if span.wire == wire.name)
+        for wire in channels.wires
+    ]
+    return shapely.union_all([_of_wire(channels, i, spans) for i, spans in enumerate(mine)])
 
 
 @lru_cache(_REMEMBERED)
-def _of_wire(channels: Channels, index: int, held: tuple[Turn, ...], config: JigConfig) -> Any:
-    """What is left free for one wire."""
+def _of_wire(channels: Channels, index: int, held: tuple[tuple[Turn, float], ...]) -> Any:
+    """What is left free for one wire, of which spans are held, each so much beyond its ends."""
     import shapely
 
-    sides = {span: _held_side(channels, span, prolonged_mm(span, config)) for span in held}
+    sides = {(span, beyond_mm): _held_side(channels, span, beyond_mm) for span, beyond_mm in held}
     whole = channels.around(index, channels.reach_mm).difference(shapely.union_all(list(sides.values())))
     parts = [_without_crumbs(whole) if sides else whole, channels.around(index, channels.face_mm)]
-    for span, side in sides.items():
-        rest = _rest(channels, index, span, prolonged_mm(span, config))
+    for (span, beyond_mm), side in sides.items():
+        rest = _rest(channels, index, span, beyond_mm)
         if rest is not None and rest.dwithin(side, channels.reach_mm):
             again = rest.buffer(channels.reach_mm, quad_segs=32).intersection(side)
             parts.append(_without_crumbs(again))
@@ -75,15 +79,25 @@ def _held_side(channels: Channels, span: Turn, beyond_mm: float) -> Any:
 def _rest(channels: Channels, index: int, span: Turn, beyond_mm: float) -> Any:
     """The rest of the wire, beyond what lies beside the span's own ends; None if that is nothing."""
     import shapely
-    from shapely.ops import substring
 
     apart = beyond_mm + BEYOND_MM + 2 * channels.reach_mm
     parts = []
     line = channels.lines[index]
     for low, high in ((0.0, span.start_mm - apart), (span.end_mm + apart, line.length)):
         if high - low > STEP_MM:
-            parts.append(substring(line, low, high))
+            parts.append(_stretch(line, low, high))
     return shapely.union_all(parts) if parts else None
+
+
+def _stretch(line: Any, low: float, high: float) -> Any:
+    """A line (shapely) between two lengths along it; shapely's own goes from point to point."""
+    import shapely
+
+    points = shapely.get_coordinates(line)
+    along = lengths(points)
+    ends = shapely.get_coordinates(shapely.line_interpolate_point(line, [low, high]))
+    between = points[(along > low) & (along < high)]
+    return shapely.LineString(np.concatenate([ends[:1], between, ends[1:]]))
 
 
 def beside(points: FloatArray, normals: FloatArray, side: float, near_mm: float, far_mm: float) -> Any:
