@@ -12,7 +12,7 @@ from wrapit.errors import Finding
 from wrapit.instructions.model import Chapter, Step, Tie
 from wrapit.instructions.order.binding_order import Placement, assembly_order
 from wrapit.instructions.order.crossings import crossings_over
-from wrapit.instructions.order.steps import Laid, wire_steps
+from wrapit.instructions.order.steps import MANY_TIES, Laid, wire_steps
 from wrapit.instructions.pictures import PRESENT, Scene, piece_figure, step_figure, tie_marks
 from wrapit.jig.bench.model import Bench, Handling
 from wrapit.jig.made import file_stem
@@ -27,6 +27,8 @@ LEAST_SPRINGY_RADIUS_MM: Final = 5.0
 MOST_SPRINGY_RADIUS_MM: Final = 50.0
 # A wire that ends this near a tie is wound round what it meets there; any other end is turned in.
 AT_TIE_MM: Final = 2.0
+# So many ties are made in one step: their letters stand on one picture, and a pause comes after them.
+MOST_TIES: Final = 8
 # What is left of a tail to turn in: round the tip of round-nose pliers.
 TURNED_IN_MM: Final = 8.0
 
@@ -148,7 +150,8 @@ def _take(work: Work, bench: Bench) -> Iterator[Text]:
 
 
 def _pictured(step: Step, wire: Wire, scene: Scene, laid: Laid) -> Step:
-    ties = [tie for tie in laid.ties.values() if tie.letter in step.ties]
+    shown = step.ties if len(step.ties) <= MANY_TIES else ()
+    ties = [tie for tie in laid.ties.values() if tie.letter in shown]
     earlier = [each.number for each in laid.earlier]
     return replace(step, figure=step_figure(scene, step, wire, earlier, ties))
 
@@ -216,7 +219,11 @@ def _together(
         by_size: dict[tuple[int, float], list[Tie]] = {}
         for tie in placement.ties:
             by_size.setdefault((tie.passes, round(tie.binding_mm)), []).append(tie)
-        for ties in by_size.values():
+        for ties in (
+            alike[first : first + MOST_TIES]
+            for alike in by_size.values()
+            for first in range(0, len(alike), MOST_TIES)
+        ):
             yield _tied(ties, whole, placed, [marks[tie.letter] for tie in ties], guide)
     yield _ends(work, whole)
     if work.ring is not None:

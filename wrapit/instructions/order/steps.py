@@ -26,6 +26,8 @@ DIRECTIONS: Final = (
 )  # fmt: skip
 # Wire that is led to the next wall makes a curve of this much by itself; more is for fingers.
 LET_RUN_RAD: Final = math.radians(45)
+# More places to tie than this on the way are counted, not named: their letters come when they are tied.
+MANY_TIES: Final = 4
 # The stretch that a start is shown with, to see which way to go.
 FIRST_MM: Final = 6.0
 
@@ -179,7 +181,9 @@ def _with_notes(laid: Laid, step: Step) -> Step:
     bridges = [run for run, traversal in enumerate(wire.traversals) if traversal.segment in laid.bridges]
     if _along(wire, step, bridges):
         notes.append(text("note-bridge"))
-    if met:
+    if len(met) > MANY_TIES:
+        notes.append(text("note-many-ties", count=len(met)))
+    elif met:
         places = listed(text("tie-at", letter=letter, at=Length(at_mm)) for letter, at_mm in met)
         notes.append(text("note-ties", places=places, count=len(met)))
     return replace(

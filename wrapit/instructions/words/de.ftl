@@ -117,7 +117,7 @@ print-title = { $jigs ->
 print-how = { $jigs ->
     [one] Sie liegt
    *[other] Jede liegt
-} in der Datei so, wie sie gedruckt wird: Platte unten, Wände oben, ohne Stützen. Lass den Maßstab bei 100 %; der Slicer darf sie nicht ans Druckbett anpassen.
+} in der Datei so, wie sie gedruckt wird: Platte unten, Wände oben, ohne Stützen. Lass den Maßstab bei 100 %; der Slicer darf sie nicht ans Druckbett anpassen.
 print-clean = Wenn sie abgekühlt ist, schieb ein Stück des Drahts durch jedes Loch, und kratz weg, was am Fuß der Wände übersteht: der Draht muss flach auf der Platte liegen.
 jig-for = { $jig }: für { $count ->
     [one] Draht { $wires }
@@ -137,7 +137,7 @@ file-mirrored = { $count ->
 fact-material = Material
 print-material = PLA oder PETG
 fact-settings = Einstellungen
-print-settings = Schichten von 0,2 mm, zwei Umrandungen, 20 % Füllung, keine Stützen
+print-settings = Schichten von 0,2 mm, zwei Umrandungen, 20 % Füllung, keine Stützen
 fact-size = Größe
 fact-takes = Braucht etwa
 takes-about = { $time }, { $mass }
@@ -311,6 +311,7 @@ note-over = Er läuft über { $under } bei { $places }.
 note-doubled = Leg ihn dicht neben den Lauf, der dort schon liegt.
 note-bridge = Dieses Stück ist eine Brücke, die die Zeichnung nicht hat: sie hält das Ganze zusammen.
 tie-at = { $letter } ({ $at })
+note-many-ties = Unterwegs liegen { $count } Stellen zum späteren Binden.
 note-ties = { $count ->
     [one] Unterwegs liegt eine Stelle zum späteren Binden: { $places }.
    *[other] Unterwegs liegen Stellen zum späteren Binden: { $places }.
@@ -407,7 +408,7 @@ picture-finished = Das fertige Stück
 picture-ring = Das Stück mit dem Ort seines Binderings
 
 ## Der Druck
-print-scale = Druck mit 100 %, „tatsächliche Größe“. Dann miss nach: die erste Linie ist { $mm } mm lang, die zweite { $inches } Zoll.
+print-scale = Druck mit 100 %, „tatsächliche Größe“. Dann miss nach: die erste Linie ist { $mm } mm lang, die zweite { $inches } Zoll.
 tile = { $name }, Teil { $part } von { $parts }: leg die Kreuze benachbarter Teile aufeinander
 strip-how = Leg jeden Draht an seinen Streifen, und markier ihn: S ist, wo die Form beginnt, E, wo sie endet; ein Balken ist eine Biegung mit der Nummer ihres Schritts; ein Buchstabe ist eine Bindestelle.
 strip-title = { $wire }, { $length }

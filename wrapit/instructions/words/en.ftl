@@ -118,7 +118,7 @@ print-title = { $jigs ->
 print-how = { $jigs ->
     [one] It lies
    *[other] Each lies
-} in the file as it is printed: plate down, walls up, no supports. Keep the scale at 100 %; don’t let the slicer fit it to the bed.
+} in the file as it is printed: plate down, walls up, no supports. Keep the scale at 100 %; don’t let the slicer fit it to the bed.
 print-clean = When it has cooled, push a piece of the wire through each hole, and scrape off what hangs at the walls’ feet: the wire has to lie flat on the plate.
 jig-for = { $jig }: for { $count ->
     [one] wire { $wires }
@@ -138,7 +138,7 @@ file-mirrored = { $count ->
 fact-material = Material
 print-material = PLA or PETG
 fact-settings = Settings
-print-settings = layers of 0.2 mm, two perimeters, 20 % infill, no supports
+print-settings = layers of 0.2 mm, two perimeters, 20 % infill, no supports
 fact-size = Size
 fact-takes = It takes about
 takes-about = { $time }, { $mass }
@@ -312,6 +312,7 @@ note-over = It passes over { $under } at { $places }.
 note-doubled = Lay it close beside the run that lies there already.
 note-bridge = This stretch is a bridge that the drawing doesn’t have: it holds the piece together.
 tie-at = { $letter } ({ $at })
+note-many-ties = On the way are { $count } places to tie later.
 note-ties = { $count ->
     [one] On the way is a place to tie later: { $places }.
    *[other] On the way are places to tie later: { $places }.
@@ -408,7 +409,7 @@ picture-finished = The finished piece
 picture-ring = The piece with the place of its jump ring
 
 ## The print
-print-scale = Print at 100 %, “actual size”. Then measure: the first line is { $mm } mm long, the second { $inches } in.
+print-scale = Print at 100 %, “actual size”. Then measure: the first line is { $mm } mm long, the second { $inches } in.
 tile = { $name }, part { $part } of { $parts }: lay the crosses of neighbouring parts on one another
 strip-how = Lay each wire along its strip and mark it: S is where the shape starts, E where it ends; a bar is a bend, with the number of its step; a letter is a tie.
 strip-title = { $wire }, { $length }
