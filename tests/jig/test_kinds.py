@@ -17,8 +17,7 @@ from wrapit.geometry import Line
 from wrapit.jig.contours import Contour, FlatDrawing
 from wrapit.jig.kinds import JIGS
 from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires
-from wrapit.jig.pegs.board_page import plan_peg_page
-from wrapit.jig.pegs.model import Board, PegPlan
+from wrapit.pages.model import Paragraph, text
 from wrapit.pipeline import build as building
 from wrapit.pipeline import stages
 from wrapit.pipeline.build import Build, build
@@ -124,17 +123,17 @@ def test_when_all_kinds_would_hold_too_little_nothing_is_made(
 
 
 def _paper(wires: Wires, _: Config) -> Made:
-    """A jig of paper: a line as long as the wires; its page borrows the template of an empty board."""
+    """A jig of paper: a line as long as the wires, and a page of one sentence."""
     length_mm = sum(wire.length_mm for wire in wires)
     line = Contour("SCORE", (Line((0.0, 0.0), (length_mm, 0.0)),))
-    page = plan_peg_page(PegPlan(Board((0.0, 0.0), 5.0, 1, 1, 5.0), (), ()), ())
+    page = GuidePage("paper", text("plain", value="Fold it"), (Paragraph(text("plain", value="It tears.")),))
     return Made(
         block="paper",
         numbers={"length_mm": length_mm},
         findings=(Finding("note", "paper", "paper jig", "it tears"),),
         drawings=(FlatDrawing("paper", "Paper jig", (line,), length_mm, 1.0),),
         views=(View("preview", wires),),
-        page=GuidePage("paper", "Fold the paper jig", "pegs/page.html.jinja", page),
+        page=page,
     )
 
 
@@ -155,7 +154,7 @@ def test_a_new_kind_is_one_line_in_the_dict(tmp_path: Path, monkeypatch: pytest.
     assert {"paper.dxf", "paper.svg"} <= {each["path"] for each in result.report["artifacts"]}
     (line,) = ezdxf.readfile(tmp_path / "out" / "paper.dxf").modelspace().query("LWPOLYLINE")
     assert line.get_points("xy") == [(0, 0), (pytest.approx(lengths, abs=1e-3), 0)]
-    assert "The board has 1 columns and 1 rows" in (tmp_path / "out" / "guide.html").read_text()
+    assert "It tears." in (tmp_path / "out" / "guide.html").read_text()
 
 
 def test_a_planned_jig_that_was_sent_makes_the_same() -> None:

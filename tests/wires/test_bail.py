@@ -15,8 +15,9 @@ from wrapit.errors import Finding, WireError
 from wrapit.geometry import straight
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
-from wrapit.instructions.plan import plan_guide
-from wrapit.instructions.stage import write_instructions
+from wrapit.instructions.plan import Held, plan_guide, size_mm
+from wrapit.instructions.stage import write_page
+from wrapit.instructions.words.speaking import Speaker
 from wrapit.jig.printed.stage import build_jig
 from wrapit.wires.bail_loop import EyeSize, best_eye
 from wrapit.wires.jump_ring import jump_ring
@@ -201,23 +202,27 @@ def test_the_mirrored_wire_has_its_loop_too() -> None:
 
 def test_the_guide_bends_the_loop_last_or_first() -> None:
     settings = config()
-    for solution, place in ((stroke((0, 0), (0, 30)), -1), (stroke((0, 30), (0, 0)), 0)):
+    for solution, last in ((stroke((0, 0), (0, 30)), True), (stroke((0, 30), (0, 0)), False)):
         wires, _ = made(solution, settings)
-        guide = plan_guide(solution, wires, GuideConfig(), settings.wire, name="pin")
-        steps = guide.sheets[0].steps
-        assert [step.number for step in steps] == [1, 2]
-        assert "round a rod of 5 mm" in steps[place].action
-        assert "wrap it twice round the neck" in steps[place].arrival
-        assert guide.size_mm[1] == pytest.approx(30 + 1 + 7, abs=1)
-    assert steps[1].action.startswith("From the neck of the loop")
+        guide = plan_guide(wires, GuideConfig(), settings.wire, name="pin", held=Held())
+        shapes = [step for step in guide.steps if step.kind == "shape"]
+        (loop,) = [step for step in shapes if any(move.kind == "bail" for move in step.moves)]
+        said = [Speaker("en", "mm").say(each) for each in loop.texts]
+        assert any("wrap the tail twice round the neck" in each for each in said)
+        assert (loop.end_mm if last else loop.start_mm) == pytest.approx(wires[0].length_mm if last else 0)
+        assert size_mm(wires)[1] == pytest.approx(30 + 1 + 7, abs=1)
 
 
 def test_the_guide_shows_the_jump_ring() -> None:
     settings = config()
     wires, _ = made(ring(), settings)
     found = ring_of(ring(), wires, settings)
-    page = write_instructions(ring(), wires, GuideConfig(), settings.wire, ring=found)
-    assert '<circle class="ring"' in page
-    assert "Open the jump ring sideways" in page
-    assert "jump ring, copper" in page
-    assert 'class="ring"' not in write_instructions(ring(), wires, GuideConfig(), settings.wire)
+
+    def page(with_ring: JumpRing | None) -> str:
+        guide = plan_guide(wires, GuideConfig(), settings.wire, name="ring", held=Held(), ring=with_ring)
+        return write_page(guide, GuideConfig())
+
+    assert 'class="ring"' in page(found)
+    assert "Open the jump ring sideways" in page(found)
+    assert "copper jump ring" in page(found)
+    assert 'class="ring"' not in page(None)

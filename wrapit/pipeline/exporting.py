@@ -47,13 +47,14 @@ def write_guide(
     ring: JumpRing | None,
     config: Config,
 ) -> tuple[Finding, ...]:
-    """`guide.html`, `guide.pdf`; the steps are those of the first jig, the other's of its mirror image."""
+    """`guide.html`, `guide.pdf`; the steps are of the first jig that holds wires, and of its mirror image."""
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
     from wrapit.jig.bench.mirror import mirrored_handling
 
-    held, other = Held(jigs[0].handling, jigs[0].findings), None
-    if mirrored is not None and jigs[0].block == mirrored.block:
+    first = next((made for made in jigs if made.handling is not None), jigs[0])
+    held, other = Held(first.handling, first.findings), None
+    if mirrored is not None and first.block == mirrored.block:
         other = Held(mirrored.handling, mirrored.findings)
     elif config.pair:
         other = Held(held.handling and mirrored_handling(held.handling), held.findings)

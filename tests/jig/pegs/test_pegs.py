@@ -148,7 +148,7 @@ def test_the_drawing_of_the_board_is_at_true_size(tmp_path: Path) -> None:
         [MARK_MM] * (numbers["columns"] * numbers["rows"])
     )
     page = (tmp_path / "out" / "guide.html").read_text()
-    section = page.split('<section id="pegs">')[1].split("</section>")[0]
+    section = page.split('id="pegs"')[1].split("</section>")[0]
     for peg in numbers["pegs"]:
         assert f">{peg['hole']}<" in section
     assert 'id="laser"' not in page
@@ -156,5 +156,9 @@ def test_the_drawing_of_the_board_is_at_true_size(tmp_path: Path) -> None:
 
 def test_a_ring_has_no_start_hole_to_push_wire_into() -> None:
     made = JIGS["pegs"].make(wires_of([circle(9)]), Config(drawing="x", jig={"least_support": 0}))
-    assert made.handling is None
+    assert made.handling is not None
+    (bench,) = made.handling.benches
+    assert not bench.anchored
+    assert len(bench.contacts["wire-01"]) > 0
+    assert all(contact.label for contact in bench.contacts["wire-01"])
     assert made.parts == ()

@@ -8,10 +8,11 @@ import pytest
 import shapely
 
 from tests.jig.metal import arcs, circle, config, line, only, wires_of
-from wrapit.config import GuideConfig, JigConfig, WireConfig
+from wrapit.config import Config, GuideConfig, JigConfig, WireConfig
 from wrapit.errors import JigError
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.instructions.plan import plan_guide
+from wrapit.instructions.plan import Held, plan_guide
+from wrapit.instructions.words.speaking import Speaker
 from wrapit.jig.printed.plan import plan_jig
 from wrapit.jig.printed.printed_kind import handling
 from wrapit.jig.printed.seats import mirrored_seats
@@ -110,14 +111,15 @@ def test_the_mirrored_jig_has_its_seats_on_the_other_side() -> None:
 
 
 def test_the_guide_tells_of_the_seats() -> None:
-    from tests.wires.pieces import circle as ring
-    from tests.wires.pieces import drawing_of, solution_of
-
-    solution = solution_of(drawing_of([(11, 0)], [(0, 0, ring(11))]), [[(0, False)]], closed=True)
     wires = wires_of([circle(11)])
-    jigs, _ = build_jig(wires, config(seats=[seat(0, 0, 6)]))
-    guide = plan_guide(solution, wires, GuideConfig(), WireConfig(), name="ring", handling=handling(jigs))
-    assert guide.seats == ("6 mm",)
+    settings = Config(drawing="x", jig=config(seats=[seat(0, 0, 6)]))
+    jigs, _ = build_jig(wires, settings.jig)
+    held = Held(handling(jigs, wires, settings))
+    guide = plan_guide(wires, GuideConfig(), WireConfig(), name="ring", held=held)
+    said = [Speaker("en", "mm").say(each).replace("\u00a0", " ") for each in guide.steps[0].texts]
+    assert "Set the bead or stone (6 mm thick) into its seat." in said
+    (lift,) = [step for step in guide.steps if step.kind == "lift"]
+    assert "lift-beads" in {each.key for each in lift.texts}
 
 
 def test_a_bead_in_the_crook_of_a_wire_leaves_the_turns_their_walls() -> None:

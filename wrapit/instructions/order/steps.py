@@ -102,7 +102,10 @@ def direction(wire: Wire) -> str:
 def _shape(laid: Laid, stretch: Stretch) -> Step:
     first = stretch.moves[0]
     texts = [*(_lead(stretch.lead, stretch.turn) if stretch.lead is not None else ())]
-    texts.append(_turn(stretch.turn, laid.bench is None))
+    if stretch.turn.kind == "bail":
+        texts.append(_bail(laid.wire, stretch.turn))
+    else:
+        texts.append(_turn(stretch.turn, laid.bench is None))
     if len(stretch.pattern) > 1:
         texts = [text("repeat-pattern", moves=listed(_short(move) for move in stretch.pattern))]
     if stretch.times > 1:
@@ -253,6 +256,12 @@ def _lead(lead: Move, turn: Move) -> Iterator[Text]:
         yield text(f"lead-to-{first.around}", length=length, side=first.side, hole=first.label)
     else:
         yield text("lead-on", length=length)
+
+
+def _bail(wire: Wire, move: Move) -> Text:
+    assert wire.bail is not None
+    rod = Thickness(wire.bail.inner_diameter_mm)
+    return text("do-bail", length=Span(move.start_mm, move.end_mm), rod=rod)
 
 
 def _turn(move: Move, by_hand: bool) -> Text:

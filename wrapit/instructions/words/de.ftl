@@ -299,7 +299,7 @@ do-spiral = Wickle eine Spirale nach { $side ->
     [left] links
    *[right] rechts
 }: etwa { $turns } Windungen, { $length } Draht.
-do-bail = Bieg den Hals und die Öse zum Aufhängen, um einen Stab oder den Pfosten in der Schablone ({ $length } Draht). Wenn das Stück zusammengesetzt ist, wickle den Überstand zweimal um den Hals.
+do-bail = Bieg den Hals und die Öse zum Aufhängen, um einen Stab von { $rod } oder den Pfosten in der Schablone ({ $length } Draht). Wenn das Stück zusammengesetzt ist, wickle den Überstand zweimal um den Hals.
 short-turn = { $angle }° nach { $side ->
     [left] links
    *[right] rechts

@@ -300,7 +300,7 @@ do-spiral = Wind a spiral to the { $side ->
     [left] left
    *[right] right
 }: about { $turns } turns, { $length } of wire.
-do-bail = Bend the neck and the loop to hang the piece from, round a rod or the post in the jig ({ $length } of wire). When the piece is together, wrap the tail twice round the neck.
+do-bail = Bend the neck and the loop to hang the piece from, round a rod of { $rod } or the post in the jig ({ $length } of wire). When the piece is together, wrap the tail twice round the neck.
 short-turn = { $angle }° to the { $side ->
     [left] left
    *[right] right
