@@ -39,6 +39,7 @@ def check(moves: tuple[Move, ...]) -> None:
         for place, turn in enumerate(turns):
             check_alike(turn, stretch.pattern[place % len(stretch.pattern)])
         check_runs(stretch)
+        check_period(stretch)
 
 
 def check_alike(turn: Move, first: Move) -> None:
@@ -64,8 +65,19 @@ def check_runs(stretch: Stretch) -> None:
         assert near(runs[place], runs[first])
 
 
+def check_period(stretch: Stretch) -> None:
+    """What is said once is the bends of one repeat and the runs between, end to end."""
+    period = stretch.period
+    assert tuple(move for move in period if move.kind != "straight") == stretch.pattern
+    assert period[0] is stretch.turn
+    assert all(a.end_mm == b.start_mm for a, b in itertools.pairwise(period))
+    if stretch.times > 1 and stretch.plain:
+        run = sum(move.length_mm for move in period[1:])
+        assert near(run, stretch.lead.length_mm if stretch.lead is not None else 0.0)
+
+
 def near(a: float, b: float) -> bool:
-    return abs(a - b) <= 2 * max(SAME_MM, SAME_SHARE * max(a, b))
+    return abs(a - b) <= max(SAME_MM, SAME_SHARE * max(a, b))
 
 
 def turns() -> st.SearchStrategy[tuple[float, float, str]]:

@@ -7,7 +7,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
-from wrapit.instructions.order.turning import LEAST_RUN_MM, SLACK_SHARE, STRAIGHT_RAD, Line, parted, swings
+from wrapit.instructions.order.turning import (
+    LEAST_RUN_MM,
+    NO_TURN_RAD,
+    SLACK_SHARE,
+    STRAIGHT_RAD,
+    Line,
+    parted,
+    swings,
+)
 from wrapit.jig.bench.model import Contact
 from wrapit.jig.channel import SIDES
 from wrapit.wires.model import Wire
@@ -94,7 +102,7 @@ def _wraps(line: Line, contacts: Sequence[Contact], low: int, high: int) -> list
     merged: list[tuple[int, int, Contact]] = []
     for contact in contacts:
         first, last = max(low, line.index(contact.start_mm)), min(high, line.index(contact.end_mm))
-        if last <= first or line.turned(first, last) * SIDES[contact.side] <= 0:
+        if last <= first or line.turned(first, last) * SIDES[contact.side] <= NO_TURN_RAD:
             continue
         before = merged[-1] if merged else None
         if before is not None and _one_wrap(line, before, first, contact):
@@ -137,7 +145,7 @@ def _apart(line: Line, wraps: Sequence[tuple[int, int, Contact]]) -> list[tuple[
         for a, b, _ in taken:
             if first < b and a < last:
                 first, last = (b, last) if first >= a else (first, a)
-        if last > first and line.turned(first, last) * SIDES[contact.side] > 0:
+        if last > first and line.turned(first, last) * SIDES[contact.side] > NO_TURN_RAD:
             taken.append((first, last, contact))
     return sorted(taken, key=lambda wrap: wrap[0])
 

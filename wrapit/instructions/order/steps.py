@@ -97,9 +97,10 @@ def direction(wire: Wire) -> str:
 def _shape(laid: Laid, stretch: Stretch) -> Step:
     first = stretch.moves[0]
     texts = [*(_lead(stretch.lead, stretch.turn) if stretch.lead is not None else ())]
-    texts.append(_turn(stretch.turn, laid.bench is None))
-    if len(stretch.pattern) > 1:
-        texts = [text("repeat-pattern", moves=listed(_short(move) for move in stretch.pattern))]
+    if stretch.plain:
+        texts.append(_turn(stretch.turn, laid.bench is None))
+    else:
+        texts.append(text("repeat-pattern", moves=listed(_short(move) for move in stretch.period)))
     if stretch.times > 1:
         texts.append(text("repeat-times", times=stretch.times, moves=len(stretch.moves)))
     start, end = first.start_mm, stretch.moves[-1].end_mm
