@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
@@ -12,18 +11,14 @@ from wrapit.errors import Finding
 from wrapit.instructions.model import Chapter, Step, Tie
 from wrapit.instructions.order.binding_order import Placement, assembly_order
 from wrapit.instructions.order.crossings import crossings_over
+from wrapit.instructions.order.springing import springs_back
 from wrapit.instructions.order.steps import Laid, wire_steps
 from wrapit.instructions.pictures import PRESENT, Scene, piece_figure, step_figure, tie_marks
 from wrapit.jig.bench.model import Bench, Handling
 from wrapit.jig.model import SameShape
-from wrapit.materials import METALS
 from wrapit.pages.model import Figure, Length, Listed, Mark, Shared, Text, listed, text
 from wrapit.wires.model import JumpRing, Wire
 
-# Tighter bends spring back by less than a hand can tell: dead-soft copper of 1 mm by 0.8° at this radius.
-LEAST_SPRINGY_RADIUS_MM: Final = 5.0
-# Wider ones are hardly bends: the angle would be that of no right angle in the piece.
-MOST_SPRINGY_RADIUS_MM: Final = 50.0
 # A wire that ends this near a tie is wound round what it meets there; any other end is turned in.
 AT_TIE_MM: Final = 2.0
 
@@ -108,7 +103,7 @@ def _in_jig(
     last = len(bench.wires) - 1
     for index, wire in enumerate(bench.wires):
         laid = _laid(work, wire, bench, bench.wires[:index])
-        steps = list(wire_steps(laid, tuple(_overbend(work, wire, wire_config))))
+        steps = list(wire_steps(laid, _overbend(work, wire, wire_config)))
         if index == 0:
             steps[0] = replace(steps[0], texts=(*_take(work, bench), *steps[0].texts))
         steps = [_pictured(step, wire, scene, laid) for step in steps]
@@ -131,6 +126,11 @@ def _laid(work: Work, wire: Wire, bench: Bench | None, earlier: Sequence[Wire]) 
     ties = {tie.junction: tie for tie in work.ties}
     # By hand nothing lies there yet but the wire's own beginning.
     return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), mine)
+
+
+def _overbend(work: Work, wire: Wire, wire_config: WireConfig) -> tuple[Text, ...]:
+    made_up = work.handling is not None and work.handling.overbent
+    return (text("spring-made-up"),) if made_up else tuple(springs_back(wire, wire_config))
 
 
 def _take(work: Work, bench: Bench) -> Iterator[Text]:
@@ -190,8 +190,7 @@ def _by_hand(work: Work, wire: Wire, whole: Scene, wire_config: WireConfig) -> C
     """A wire that no jig holds: bent over the print at true size."""
     laid = _laid(work, wire, None, ())
     steps = [
-        _pictured(step, wire, whole, laid)
-        for step in wire_steps(laid, tuple(_overbend(work, wire, wire_config)))
+        _pictured(step, wire, whole, laid) for step in wire_steps(laid, _overbend(work, wire, wire_config))
     ]
     return _chapter(work, wire, steps)
 
@@ -289,18 +288,3 @@ def _ends(work: Work, whole: Scene) -> Step:
 
 def _wires(numbers: Sequence[int]) -> Listed:
     return listed(text("wire-number", wire=number) for number in numbers)
-
-
-def _overbend(work: Work, wire: Wire, wire_config: WireConfig) -> Iterator[Text]:
-    """How far to bend beyond the shape, because the metal springs back when it is let go."""
-    if work.handling is not None and work.handling.overbent:
-        yield text("spring-made-up")
-        return
-    curvature = max((turn.max_curvature_per_mm for turn in wire.turns), default=0.0)
-    if curvature <= 0:
-        return
-    loss = METALS[wire_config.metal].springback_per_mm(wire.diameter_mm, wire_config.temper)
-    radius_mm = min(max(1 / curvature, LEAST_SPRINGY_RADIUS_MM), MOST_SPRINGY_RADIUS_MM)
-    degrees = round(math.degrees(math.pi / 2 * loss * radius_mm))
-    if degrees >= 1:
-        yield text("spring-further", radius=Length(round(radius_mm)), angle=degrees)

@@ -26,6 +26,8 @@ DIRECTIONS: Final = (
 )  # fmt: skip
 # The stretch that a start is shown with, to see which way to go.
 FIRST_MM: Final = 6.0
+# So far from a start the way is told: past the bend of a tail, and the eye sees it on the picture.
+AHEAD_MM: Final = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +92,8 @@ def direction(wire: Wire) -> str:
     """Which of DIRECTIONS a wire goes off to."""
     u = np.linspace(*wire.centreline.domain, 400)
     points = wire.centreline.at(u)
-    ahead = points[np.argmax(np.linalg.norm(points - points[0], axis=1) > 1.5)] - points[0]
+    away_mm = np.linalg.norm(points - points[0], axis=1)
+    ahead = points[np.argmax(away_mm >= min(AHEAD_MM, away_mm.max()))] - points[0]
     return DIRECTIONS[round(math.atan2(ahead[1], ahead[0]) / (math.pi / 4)) % len(DIRECTIONS)]
 
 
