@@ -152,6 +152,17 @@ def test_along_any_wire(walk: Walk, found: list[tuple[str, list[float]]], by_han
     check(each, wire_steps(each, ()))
 
 
+@given(walks())
+@settings(max_examples=20)
+def test_what_lies_just_where_one_step_ends_is_told_once(walk: Walk) -> None:
+    bench = bench_along(walk)
+    (wire,) = bench.wires
+    bounds = sorted({step.end_mm for step in wire_steps(laid(wire, bench, ()), ())[1:]} | {0.0})
+    found = [Finding("warning", "hemmed", "there", "so", wire=wire.name, places_mm=tuple(bounds))]
+    each = laid(wire, bench, (), found)
+    check(each, wire_steps(each, ()))
+
+
 @pytest.mark.parametrize("name", PLANNED)
 def test_in_jigs_that_are_planned(name: str) -> None:
     for bench in planned(name).benches:
