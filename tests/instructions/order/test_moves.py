@@ -31,7 +31,7 @@ from tests.jig.metal import circle, wires_of
 from wrapit.geometry import BezierChain, Region, joined, straight
 from wrapit.instructions.order.moves import Move, moves_along
 from wrapit.instructions.order.repeats import stretches_of
-from wrapit.instructions.order.turning import STRAIGHT_RAD
+from wrapit.instructions.order.swings import STRAIGHT_RAD
 from wrapit.jig.bench.model import Bench
 from wrapit.jig.channel import SIDES
 from wrapit.wires.mirror import mirrored

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
-from wrapit.instructions.order.turning import (
+from wrapit.instructions.order.swings import (
     LEAST_RUN_MM,
     NO_TURN_RAD,
     SLACK_SHARE,
