@@ -14,10 +14,10 @@ from wrapit.instructions.materials_page import effort_of, materials_page
 from wrapit.instructions.model import Chapter, Guide, Page
 from wrapit.instructions.order.binding_order import find_ties
 from wrapit.instructions.order.laying import Work, chapters_of
-from wrapit.instructions.order.strips import strips_of
+from wrapit.instructions.order.ruler_strips import strips_of
 from wrapit.instructions.pictures import Scene, cover_figure, true_size_picture
 from wrapit.jig.bench.model import Handling
-from wrapit.jig.made import MIRRORED, GuidePage
+from wrapit.jig.made import GuidePage
 from wrapit.pages.model import Length, text
 from wrapit.wires.mirror import mirrored, mirrored_ring
 from wrapit.wires.model import JumpRing, Wire
@@ -54,7 +54,7 @@ def plan_guide(
     if not wires:
         raise ValueError("a guide needs at least one wire")
     ties = find_ties(wires, guide_config.binding_gauge, guide_config.binding_turns)
-    first = Work("", "", tuple(wires), held.handling, ties, held.findings, ring, bridges)
+    first = Work("", tuple(wires), held.handling, ties, held.findings, ring, bridges)
     chapters, scenes = chapters_of(first, guide_config, wire_config)
     forms = held.handling.forms if held.handling is not None else ()
     strips = strips_of(wires, forms, chapters, ties)
@@ -104,7 +104,6 @@ def _other(
     work = replace(
         first,
         prefix=OTHER,
-        suffix=MIRRORED,
         wires=wires,
         handling=other.handling,
         ties=ties,

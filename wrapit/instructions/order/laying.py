@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
@@ -12,19 +11,15 @@ from wrapit.errors import Finding
 from wrapit.instructions.model import Chapter, Step, Tie
 from wrapit.instructions.order.binding_order import Placement, assembly_order
 from wrapit.instructions.order.crossings import crossings_over
-from wrapit.instructions.order.steps import MANY_TIES, Laid, wire_steps
+from wrapit.instructions.order.springing import springs_back
+from wrapit.instructions.order.wire_steps import MANY_TIES, Laid, wire_steps
 from wrapit.instructions.pictures import PRESENT, Scene, piece_figure, step_figure, tie_marks
 from wrapit.jig.bench.model import Bench, Handling
-from wrapit.jig.made import file_stem
+from wrapit.jig.made import MIRRORED, file_stem
 from wrapit.jig.model import SameShape
-from wrapit.materials import METALS
 from wrapit.pages.model import Figure, Length, Listed, Mark, Shared, Text, listed, text
 from wrapit.wires.model import JumpRing, Wire
 
-# Tighter bends spring back by less than a hand can tell: dead-soft copper of 1 mm by 0.8° at this radius.
-LEAST_SPRINGY_RADIUS_MM: Final = 5.0
-# Wider ones are hardly bends: the angle would be that of no right angle in the piece.
-MOST_SPRINGY_RADIUS_MM: Final = 50.0
 # A wire that ends this near a tie is wound round what it meets there; any other end is turned in.
 AT_TIE_MM: Final = 2.0
 # So many ties are made in one step: their letters stand on one picture, and a pause comes after them.
@@ -37,18 +32,17 @@ TURNED_IN_MM: Final = 8.0
 class Work:
     """What is laid: the piece's wires, the jigs with theirs, ties, and what was found of the jigs.
 
-    `prefix` begins the anchors and picture keys, `suffix` ends the names of jigs: the other one of a pair has
-    its own. `bridges` are segments that the drawing didn't have.
+    `prefix` begins the anchors and picture keys: the other one of a pair has its own. `bridges` are segments
+    that the drawing didn't have.
     """
 
     prefix: str
-    suffix: str
     wires: tuple[Wire, ...]
     handling: Handling | None
     ties: tuple[Tie, ...]
     findings: tuple[Finding, ...]
     ring: JumpRing | None
-    bridges: frozenset[int]
+    bridges: frozenset[int] = frozenset()
 
     @property
     def benches(self) -> tuple[Bench, ...]:
@@ -116,7 +110,7 @@ def _in_jig(
     last = len(bench.wires) - 1
     for index, wire in enumerate(bench.wires):
         laid = _laid(work, wire, bench, bench.wires[:index])
-        steps = list(wire_steps(laid, tuple(_overbend(work, wire, wire_config))))
+        steps = list(wire_steps(laid, _overbend(work, wire, wire_config)))
         if index == 0:
             steps[0] = replace(steps[0], texts=(*_take(work, bench), *steps[0].texts))
         steps = [_pictured(step, wire, scene, laid) for step in steps]
@@ -141,10 +135,16 @@ def _laid(work: Work, wire: Wire, bench: Bench | None, earlier: Sequence[Wire]) 
     return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), mine, work.bridges)
 
 
+def _overbend(work: Work, wire: Wire, wire_config: WireConfig) -> tuple[Text, ...]:
+    made_up = work.handling is not None and work.handling.overbent
+    return (text("spring-made-up"),) if made_up else tuple(springs_back(wire, wire_config))
+
+
 def _take(work: Work, bench: Bench) -> Iterator[Text]:
     """Which jig, and what goes into it before the first wire."""
     if len(work.benches) > 1 or work.prefix:
-        yield text("take-jig", jig=file_stem(bench.name, len(work.benches)) + work.suffix)
+        suffix = MIRRORED if work.prefix else ""
+        yield text("take-jig", jig=file_stem(bench.name, len(work.benches)) + suffix)
     if bench.seats_mm:
         yield text("set-beads", count=len(bench.seats_mm), sizes=listed(map(Length, bench.seats_mm)))
 
@@ -199,8 +199,7 @@ def _by_hand(work: Work, wire: Wire, whole: Scene, wire_config: WireConfig) -> C
     """A wire that no jig holds: bent over the print at true size."""
     laid = _laid(work, wire, None, ())
     steps = [
-        _pictured(step, wire, whole, laid)
-        for step in wire_steps(laid, tuple(_overbend(work, wire, wire_config)))
+        _pictured(step, wire, whole, laid) for step in wire_steps(laid, _overbend(work, wire, wire_config))
     ]
     return _chapter(work, wire, steps)
 
@@ -308,18 +307,3 @@ def _ends(work: Work, whole: Scene) -> Step:
 
 def _wires(numbers: Sequence[int]) -> Listed:
     return listed(text("wire-number", wire=number) for number in numbers)
-
-
-def _overbend(work: Work, wire: Wire, wire_config: WireConfig) -> Iterator[Text]:
-    """How far to bend beyond the shape, because the metal springs back when it is let go."""
-    if work.handling is not None and work.handling.overbent:
-        yield text("spring-made-up")
-        return
-    curvature = max((turn.max_curvature_per_mm for turn in wire.turns), default=0.0)
-    if curvature <= 0:
-        return
-    loss = METALS[wire_config.metal].springback_per_mm(wire.diameter_mm, wire_config.temper)
-    radius_mm = min(max(1 / curvature, LEAST_SPRINGY_RADIUS_MM), MOST_SPRINGY_RADIUS_MM)
-    degrees = round(math.degrees(math.pi / 2 * loss * radius_mm))
-    if degrees >= 1:
-        yield text("spring-further", radius=Length(round(radius_mm)), angle=degrees)

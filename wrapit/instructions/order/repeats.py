@@ -31,6 +31,23 @@ class Stretch:
     times: int = 1
 
     @property
+    def period(self) -> tuple[Move, ...]:
+        """The bends of one repeat, each with the run after it, up to the first bend of the next."""
+        bends = [index for index, move in enumerate(self.moves) if move.kind != "straight"]
+        return self.moves[bends[0] : bends[len(self.pattern)]] if self.times > 1 else self.moves[bends[0] :]
+
+    @property
+    def plain(self) -> bool:
+        """Whether it is one bend, which may repeat after runs like that before the first."""
+        return len(self.pattern) == 1 and (
+            self.times == 1
+            or _near(
+                self.lead.length_mm if self.lead is not None else 0.0,
+                sum(move.length_mm for move in self.period[1:]),
+            )
+        )
+
+    @property
     def turn(self) -> Move:
         """The bend, curve or wrap that it is for; the first of a pattern."""
         return self.pattern[0]
@@ -68,30 +85,41 @@ def _repeat(pairs: Sequence[tuple[Move | None, Move]], first: int) -> tuple[int,
     best = (1, 1)
     for length in range(1, LONGEST_PATTERN + 1):
         times = 1
-        while all(
-            first + times * length + k < len(pairs)
-            and _alike(pairs[first + k], pairs[first + times * length + k], first_lead=k == 0 and times == 1)
-            for k in range(length)
-        ):
+        while _once_more(pairs, first, length, times):
             times += 1
         if times >= LEAST_TIMES and length * times > best[0] * best[1]:
             best = (length, times)
     return best
 
 
-def _alike(one: tuple[Move | None, Move], other: tuple[Move | None, Move], *, first_lead: bool) -> bool:
-    """Whether a hand does the same twice; the run before the very first repeat may be another."""
-    (lead, turn), (other_lead, other_turn) = one, other
-    same = (
-        turn.kind == other_turn.kind
-        and _round(turn) == _round(other_turn)
-        and turn.turn_rad * other_turn.turn_rad > 0
-        and abs(turn.turn_rad - other_turn.turn_rad) <= SAME_RAD
-        and _near(turn.length_mm, other_turn.length_mm)
+def _once_more(pairs: Sequence[tuple[Move | None, Move]], first: int, length: int, times: int) -> bool:
+    """Whether what was done so many `times` from here on comes once more.
+
+    The run before the very first bend may be another: it is told by itself.
+    """
+    for k in range(length):
+        next_one = first + times * length + k
+        if next_one >= len(pairs) or not _alike(pairs[first + k][1], pairs[next_one][1]):
+            return False
+        before = first + k if k else first + length
+        if next_one != before and not _near(_run_mm(pairs[before]), _run_mm(pairs[next_one])):
+            return False
+    return True
+
+
+def _alike(turn: Move, other: Move) -> bool:
+    """Whether a hand bends the same twice."""
+    return (
+        turn.kind == other.kind
+        and _round(turn) == _round(other)
+        and turn.turn_rad * other.turn_rad > 0
+        and abs(turn.turn_rad - other.turn_rad) <= SAME_RAD
+        and _near(turn.length_mm, other.length_mm)
     )
-    if first_lead:
-        return same
-    return same and _near(lead.length_mm if lead else 0.0, other_lead.length_mm if other_lead else 0.0)
+
+
+def _run_mm(pair: tuple[Move | None, Move]) -> float:
+    return pair[0].length_mm if pair[0] is not None else 0.0
 
 
 def _round(turn: Move) -> tuple[tuple[str, str], ...]:

@@ -30,6 +30,8 @@ LET_RUN_RAD: Final = math.radians(45)
 MANY_TIES: Final = 4
 # The stretch that a start is shown with, to see which way to go.
 FIRST_MM: Final = 6.0
+# So far from a start the way is told: past the bend of a tail, and the eye sees it on the picture.
+AHEAD_MM: Final = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,19 +97,20 @@ def direction(wire: Wire) -> str:
     """Which of DIRECTIONS a wire goes off to."""
     u = np.linspace(*wire.centreline.domain, 400)
     points = wire.centreline.at(u)
-    ahead = points[np.argmax(np.linalg.norm(points - points[0], axis=1) > 1.5)] - points[0]
+    away_mm = np.linalg.norm(points - points[0], axis=1)
+    ahead = points[np.argmax(away_mm >= min(AHEAD_MM, away_mm.max()))] - points[0]
     return DIRECTIONS[round(math.atan2(ahead[1], ahead[0]) / (math.pi / 4)) % len(DIRECTIONS)]
 
 
 def _shape(laid: Laid, stretch: Stretch) -> Step:
     first = stretch.moves[0]
     texts = [*(_lead(stretch.lead, stretch.turn) if stretch.lead is not None else ())]
-    if stretch.turn.kind == "bail":
+    if not stretch.plain:
+        texts.append(text("repeat-pattern", moves=listed(_short(move) for move in stretch.period)))
+    elif stretch.turn.kind == "bail":
         texts.append(_bail(laid.wire, stretch.turn))
     else:
         texts.append(_turn(stretch.turn, laid.bench is None))
-    if len(stretch.pattern) > 1:
-        texts = [text("repeat-pattern", moves=listed(_short(move) for move in stretch.pattern))]
     if stretch.times > 1:
         texts.append(text("repeat-times", times=stretch.times, moves=len(stretch.moves)))
     start, end = first.start_mm, stretch.moves[-1].end_mm

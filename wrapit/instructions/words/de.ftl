@@ -12,7 +12,6 @@ next = Weiter
 step-of = { $step } von { $steps }
 progress = Wie weit du bist
 get-ready = Vorbereiten
-step-number = Schritt { $number }
 strips-title = Messstreifen
 true-size-title = Das Stück in wahrer Größe
 caution = Achtung

@@ -13,7 +13,6 @@ next = Next
 step-of = { $step } of { $steps }
 progress = How far you are
 get-ready = Get ready
-step-number = Step { $number }
 strips-title = Ruler strips
 true-size-title = The piece at true size
 caution = Mind

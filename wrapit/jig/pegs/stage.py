@@ -102,6 +102,8 @@ def _findings(plan: PegPlan, config: Config) -> tuple[Finding, ...]:
             "bend it by hand there, add a diameter to pegs.diameters "
             f"(the thinnest is {smallest:g} mm), or take a board with a smaller pegs.pitch",
             severity=abs(turn.max_curvature_per_mm),
+            wire=turn.wire,
+            places_mm=((turn.start_mm + turn.end_mm) / 2,),
         )
         for turn in plan.unserved
     )
