@@ -148,7 +148,7 @@ class Fingers:
 
     def swipe(self, *paths: tuple[tuple[float, float], tuple[float, float]]) -> None:
         """Each finger goes from its first place to its second, all at the same time."""
-        moves = 5
+        moves = 3
         for part in range(moves + 1):
             share = part / moves
             places = [
