@@ -120,11 +120,13 @@ def opened(browser: Browser, path: Path, hash_: str = "", **context: Any) -> Ite
     page.on("console", lambda message: said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("request", lambda request: fetched.add(request.url.split("#")[0]))
-    page.goto(path.as_uri() + hash_)
-    yield page
-    assert said == []
-    assert fetched == {path.as_uri()}
-    window.close()
+    try:
+        page.goto(path.as_uri() + hash_)
+        yield page
+        assert said == []
+        assert fetched == {path.as_uri()}
+    finally:
+        window.close()
 
 
 def state(page: Page) -> dict[str, Any]:
