@@ -87,6 +87,7 @@ class Guide:
     """A page as it stands in its file, read without a browser."""
 
     path: Path
+    language: str
     cards: tuple[str, ...]
 
     @property
@@ -96,9 +97,11 @@ class Guide:
     @classmethod
     def read(cls, path: Path) -> Guide:
         """Raises AssertionError where the steps aren't numbered in their order."""
-        tags = re.findall(r"<(?:section|li)\b[^>]*>", path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        tags = re.findall(r"<(?:section|li)\b[^>]*>", text)
         cards = [tag for tag in tags if re.search(r'class="card[ "]', tag)]
-        guide = cls(path, tuple(re.findall(r' id="([^"]+)"', " ".join(cards))))
+        language = text.split('<html lang="')[1][:2]
+        guide = cls(path, language, tuple(re.findall(r' id="([^"]+)"', " ".join(cards))))
         assert len(guide.cards) == len(cards)
         assert guide.cards[0] == "cover"
         assert guide.steps == tuple(f"step-{number}" for number in range(1, len(guide.steps) + 1))
