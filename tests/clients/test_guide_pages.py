@@ -156,10 +156,11 @@ def test_what_is_no_swipe_turns_no_page(browser: Browser, guides: Guides) -> Non
         for other in ((100, 600), (80, 600)), ((60, 600), (10, 600)), ((20, 600), (100, 600)):
             fingers.swipe(((300, 300), (120, 300)), other)
             expect(page, guide, at)
-        # While the page is zoomed a finger moves it about.
+        # While the page is zoomed a finger moves it about, also once it has come to the page's side.
         fingers.wire.send("Emulation.setPageScaleFactor", {"pageScaleFactor": 2})
-        fingers.swipe(((300, 400), (80, 400)))
-        expect(page, guide, at)
+        for _ in range(3):
+            fingers.swipe(((300, 400), (80, 400)))
+            expect(page, guide, at)
         fingers.wire.send("Emulation.setPageScaleFactor", {"pageScaleFactor": 1})
         fingers.swipe(((300, 400), (80, 400)))
         expect(page, guide, at + 1)
@@ -190,7 +191,7 @@ def test_the_place_is_kept(browser: Browser, guides: Guides) -> None:
         expect(page, guide, len(guide.cards) - 1)
         # A link that somebody sends may be of an older guide.
         page.evaluate("location.hash = 'step-9999'")
-        page.wait_for_function("document.activeElement.id === 'cover'")
+        page.locator("#cover:focus").wait_for()
         expect(page, guide, 0)
 
 
@@ -205,10 +206,10 @@ def test_contents_lead_to_their_cards(browser: Browser, guides: Guides, name: st
         assert targets[len(pages)] == "step-1"
         for index, target in enumerate(targets):
             links.nth(index).click()
-            page.wait_for_function("id => document.activeElement.id === id", arg=target)
+            page.locator(f"#{target}:focus").wait_for()
             expect(page, guide, guide.cards.index(target))
             page.go_back()
-            page.wait_for_function("document.activeElement.id === 'cover'")
+            page.locator("#cover:focus").wait_for()
             expect(page, guide, 0)
 
 
@@ -286,7 +287,7 @@ def test_axe_has_no_complaints(browser: Browser, guides: Guides, name: str, sche
     with opened(browser, guide.path, color_scheme=scheme, **PHONE) as page:
         for card in [*pages, *steps]:
             page.evaluate("id => { location.hash = id; }", card)
-            page.wait_for_function("id => document.getElementById(id).ariaCurrent === 'step'", arg=card)
+            page.locator(f"#{card}[aria-current]").wait_for()
             assert complaints(page) == [], card
         page.locator("#mode").click()
         assert complaints(page) == []
