@@ -126,9 +126,8 @@ def test_buttons_are_reached_by_keys(browser: Browser, guides: Guides) -> None:
             expect(page, guide, at)
 
 
-@pytest.mark.parametrize("name", CLOSELY)
-def test_a_guide_is_walked_by_touch(browser: Browser, guides: Guides, name: str) -> None:
-    guide = guides(name)
+def test_a_guide_is_walked_by_touch(browser: Browser, guides: Guides) -> None:
+    guide = guides("leaf")
     with opened(browser, guide.path, **PHONE) as page:
         fingers = Fingers(page)
         on, back = ((300, 400), (80, 410)), ((60, 400), (280, 390))
