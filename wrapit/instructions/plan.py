@@ -13,7 +13,8 @@ from wrapit.errors import Finding
 from wrapit.instructions.materials_page import effort_of, materials_page
 from wrapit.instructions.model import Chapter, Guide, Page
 from wrapit.instructions.order.binding_order import find_ties
-from wrapit.instructions.order.laying import Work, chapters_of
+from wrapit.instructions.order.guide_work import Work
+from wrapit.instructions.order.laying import chapters_of
 from wrapit.instructions.order.ruler_strips import strips_of
 from wrapit.instructions.pictures import Scene, cover_figure, true_size_picture
 from wrapit.jig.bench.model import Handling
@@ -54,7 +55,8 @@ def plan_guide(
     if not wires:
         raise ValueError("a guide needs at least one wire")
     ties = find_ties(wires, guide_config.binding_gauge, guide_config.binding_turns)
-    first = Work("", tuple(wires), held.handling, ties, held.findings, ring, bridges)
+    pair = other is not None
+    first = Work("", tuple(wires), held.handling, ties, held.findings, ring, bridges, of_pair=pair)
     chapters, scenes = chapters_of(first, guide_config, wire_config)
     forms = held.handling.forms if held.handling is not None else ()
     strips = strips_of(wires, forms, chapters, ties)

@@ -50,7 +50,7 @@ def write_guide(
     """`guide.html`, `guide.pdf`; the steps are of the first jig that holds wires, and of its mirror image."""
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
-    from wrapit.jig.bench.mirror import mirrored_handling
+    from wrapit.jig.bench.mirrored_bench import mirrored_handling
 
     first = next((made for made in jigs if made.handling is not None), jigs[0])
     held, other = Held(first.handling, first.findings), None

@@ -10,13 +10,14 @@ import pytest
 
 from tests.exports.pieces_for_tests import eye, woven
 from tests.instructions.order.test_binding_order import star
-from tests.instructions.order.test_steps import values_in
+from tests.instructions.order.test_wire_steps import values_in
 from tests.instructions.order.walks import PLANNED, Part, bench_by_hand, planned, wire_along
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.errors import Finding
 from wrapit.instructions.model import Chapter, Step
 from wrapit.instructions.order.binding_order import find_ties
-from wrapit.instructions.order.laying import Work, chapters_of
+from wrapit.instructions.order.guide_work import Work
+from wrapit.instructions.order.laying import chapters_of
 from wrapit.instructions.plan import OTHER, Held, plan_guide
 from wrapit.jig.bench.model import Handling
 from wrapit.jig.model import SameShape
@@ -196,6 +197,9 @@ def test_the_other_of_a_pair_is_the_mirror_image(name: str) -> None:
         for step, there in zip(chapter.steps, other.steps, strict=True):
             assert [exchanged(text) for text in there.texts] == [spoken(text) for text in step.texts]
             assert there.ties == step.ties
+    jigs = [[value(text, "jig") for step in half for text in step.texts if text.key == "take-jig"] for half in
+            ([step for chapter in side for step in chapter.steps] for side in (ours, others))]  # fmt: skip
+    assert jigs == [["jig"], ["jig-mirrored"]]
 
 
 def spoken(said: Text) -> list[object]:
@@ -208,7 +212,8 @@ def exchanged(said: Text) -> list[object]:
     def other(one: object) -> object:
         if not isinstance(one, str):
             return one
-        return re.sub("left|right", lambda found: OTHERS[found.group()], one)
+        there = one.removesuffix("-mirrored")
+        return re.sub("left|right", lambda found: OTHERS[found.group()], there)
 
     return [other(one) for one in spoken(said)]
 

@@ -11,11 +11,12 @@ import numpy as np
 
 from wrapit.errors import Finding
 from wrapit.instructions.model import Crossing, Step, Tie
+from wrapit.instructions.order.move_words import bail_said, heading_of, lead_said, short_said, turn_said
 from wrapit.instructions.order.moves import Move, moves_along
 from wrapit.instructions.order.repeats import Stretch, stretches_of
 from wrapit.jig.bench.from_above import ONE_HOLE_MM
 from wrapit.jig.bench.model import Bench, Contact
-from wrapit.pages.model import Length, Span, Text, Thickness, listed, text
+from wrapit.pages.model import Length, Span, Text, listed, text
 from wrapit.wires.model import Wire
 
 # What the hand does where the jig alone doesn't, by the finding: each has a text `caution-…`.
@@ -24,8 +25,6 @@ BY_HAND: Final = ("strays", "hemmed", "weak-turn", "weak-stretch", "turn-without
 DIRECTIONS: Final = (
     "right", "upper-right", "up", "upper-left", "left", "lower-left", "down", "lower-right",
 )  # fmt: skip
-# Wire that is led to the next wall makes a curve of this much by itself; more is for fingers.
-LET_RUN_RAD: Final = math.radians(45)
 # More places to tie than this on the way are counted, not named: their letters come when they are tied.
 MANY_TIES: Final = 4
 # The stretch that a start is shown with, to see which way to go.
@@ -104,13 +103,13 @@ def direction(wire: Wire) -> str:
 
 def _shape(laid: Laid, stretch: Stretch) -> Step:
     first = stretch.moves[0]
-    texts = [*(_lead(stretch.lead, stretch.turn) if stretch.lead is not None else ())]
+    texts = [*(lead_said(stretch.lead, stretch.turn) if stretch.lead is not None else ())]
     if not stretch.plain:
-        texts.append(text("repeat-pattern", moves=listed(_short(move) for move in stretch.period)))
+        texts.append(text("repeat-pattern", moves=listed(short_said(move) for move in stretch.period)))
     elif stretch.turn.kind == "bail":
-        texts.append(_bail(laid.wire, stretch.turn))
+        texts.append(bail_said(laid.wire, stretch.turn))
     else:
-        texts.append(_turn(stretch.turn, laid.bench is None))
+        texts.append(turn_said(stretch.turn, laid.bench is None))
     if stretch.times > 1:
         texts.append(text("repeat-times", times=stretch.times, moves=len(stretch.moves)))
     start, end = first.start_mm, stretch.moves[-1].end_mm
@@ -119,7 +118,7 @@ def _shape(laid: Laid, stretch: Stretch) -> Step:
         laid,
         Step(
             "shape",
-            _heading(stretch),
+            heading_of(stretch),
             tuple(texts),
             wire=laid.wire.number,
             start_mm=start,
@@ -243,71 +242,3 @@ def _cautions(findings: Sequence[Finding], within: object) -> Iterator[Text]:
         )
         if places:
             yield text(f"caution-{code}", places=listed(map(Length, places)))
-
-
-def _heading(stretch: Stretch) -> Text:
-    if stretch.times > 1:
-        return text("heading-repeat", times=stretch.times)
-    turn = stretch.turn
-    return text(f"heading-{turn.kind}", side=side_of(turn))
-
-
-def _lead(lead: Move, turn: Move) -> Iterator[Text]:
-    length = Span(lead.start_mm, lead.end_mm)
-    if turn.contacts:
-        first = turn.contacts[0]
-        yield text(f"lead-to-{first.around}", length=length, side=first.side, hole=first.label)
-    else:
-        yield text("lead-on", length=length)
-
-
-def _bail(wire: Wire, move: Move) -> Text:
-    assert wire.bail is not None
-    rod = Thickness(wire.bail.inner_diameter_mm)
-    return text("do-bail", length=Span(move.start_mm, move.end_mm), rod=rod)
-
-
-def _turn(move: Move, by_hand: bool) -> Text:
-    """One bend, curve or wrap as a sentence."""
-    made: str = move.kind
-    hole, rod = "", Thickness(0.0)
-    if move.contacts:
-        first = move.contacts[0]
-        made, hole, rod = f"wrap-{first.around}", first.label, Thickness(first.rod_mm)
-    elif move.kind == "curve" and (by_hand or abs(move.turn_rad) > LET_RUN_RAD):
-        made = "by-hand-curve"
-    return text(
-        f"do-{made}",
-        side=side_of(move),
-        angle=degrees(move),
-        length=Span(move.start_mm, move.end_mm),
-        radius=Length(move.radius_mm),
-        turns=_turns(move),
-        hole=hole,
-        rod=rod,
-        walls=len({contact.index for contact in move.contacts}),
-    )
-
-
-def _short(move: Move) -> Text:
-    """The same within a list: `120° to the left`."""
-    return text(
-        "short-turn" if move.kind != "straight" else "short-run",
-        side=side_of(move),
-        angle=degrees(move),
-        length=Span(move.start_mm, move.end_mm),
-    )
-
-
-def side_of(move: Move) -> str:
-    """To which side a move bends, in the direction of travel."""
-    return "left" if move.turn_rad > 0 else "right"
-
-
-def degrees(move: Move) -> int:
-    """To five degrees, as a hand can tell."""
-    return round(math.degrees(abs(move.turn_rad)) / 5) * 5
-
-
-def _turns(move: Move) -> float:
-    return round(abs(move.turn_rad) / math.tau, 1)

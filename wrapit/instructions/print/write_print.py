@@ -9,6 +9,7 @@ from xml.sax.saxutils import escape
 
 from wrapit.config import Paper
 from wrapit.instructions.model import Guide, Step
+from wrapit.instructions.print.flowing import drawn, numbered_canvas
 from wrapit.instructions.print.fonts import letters_for
 from wrapit.instructions.print.painting import MM, Brush
 from wrapit.instructions.print.sheets import (
@@ -64,33 +65,8 @@ def guide_pdf(guide: Guide, speaker: Speaker, paper: Paper) -> tuple[bytes, froz
         pageCompression=1,
     )
     writer = _Writer(guide, speaker, (plain, bold), (document.width, document.height))
-    document.build(list(writer.story()), canvasmaker=_numbered(speaker, plain))
+    document.build(list(writer.story()), canvasmaker=numbered_canvas(speaker, plain))
     return made.getvalue(), missing
-
-
-def _numbered(speaker: Speaker, font: str) -> Any:
-    """A canvas that writes `page 3 of 12` below each page, once it knows how many there are."""
-    from reportlab.pdfgen.canvas import Canvas
-
-    class Numbered(Canvas):  # type: ignore[misc]
-        def __init__(self, *args: Any, **options: Any) -> None:
-            super().__init__(*args, **options)
-            self._pages: list[dict[str, Any]] = []
-
-        def showPage(self) -> None:  # noqa: N802  reportlab's name
-            self._pages.append(dict(self.__dict__))
-            self._startPage()
-
-        def save(self) -> None:
-            for number, page in enumerate(self._pages, start=1):
-                self.__dict__.update(page)
-                self.setFont(font, 8)
-                said = speaker.of("page-of", page=number, pages=len(self._pages))
-                self.drawCentredString(self._pagesize[0] / 2, 8 * MM, said)
-                super().showPage()
-            super().save()
-
-    return Numbered
 
 
 class _Writer:
@@ -218,7 +194,7 @@ class _Writer:
         def paint(canvas: Any) -> None:
             self._brush(canvas).paint(picture, 0, 0, scale)
 
-        return _drawn(width * scale * MM, height * scale * MM, paint)
+        return drawn(width * scale * MM, height * scale * MM, paint)
 
     def _brush(self, canvas: Any) -> Brush:
         return Brush(canvas, self.fonts[1], self.guide.shared)
@@ -279,7 +255,7 @@ class _Writer:
                 sheet.paint(self._brush(canvas), part, 0, CAPTION_MM * MM)
                 check_lines(canvas, self.speaker, self.fonts[0], 0, 0)
 
-            yield _drawn(self.room_pt[0], tall, paint)
+            yield drawn(self.room_pt[0], tall, paint)
             if len(parts) > 1:
                 yield PageBreak()
 
@@ -294,27 +270,10 @@ class _Writer:
         def paint(canvas: Any) -> None:
             part.paint(canvas, self.speaker, self.fonts, 0, 0)
 
-        return _drawn(self.room_pt[0], STRIP_MM * MM, paint)
+        return drawn(self.room_pt[0], STRIP_MM * MM, paint)
 
 
 def _shares(table: Table) -> tuple[float, ...]:
     """Widths of columns: the first is as wide as two where there are more than three."""
     count = len(table.head)
     return tuple((2 if index == 0 else 1) / (count + 1) for index in range(count))
-
-
-def _drawn(width_pt: float, height_pt: float, paint: Any) -> Any:
-    """Something drawn that takes so much room on a page."""
-    from reportlab.platypus import Flowable
-
-    class Drawn(Flowable):  # type: ignore[misc]
-        def __init__(self) -> None:
-            super().__init__()
-            self.width, self.height, self.hAlign = width_pt, height_pt, "LEFT"
-
-        def draw(self) -> None:
-            self.canv.saveState()
-            paint(self.canv)
-            self.canv.restoreState()
-
-    return Drawn()
