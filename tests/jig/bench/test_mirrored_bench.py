@@ -10,6 +10,7 @@ from tests.jig.metal import arcs, line, wires_of
 from wrapit.config import Config
 from wrapit.geometry.outlines.polygons import polygon_of
 from wrapit.jig.bench.mirrored_bench import mirrored_handling
+from wrapit.jig.bench.model import Contact
 from wrapit.jig.bench.touching import contacts
 from wrapit.jig.channel import Channels
 from wrapit.jig.sheet.sheet_kind import make
@@ -35,8 +36,11 @@ def test_walls_wires_and_sides_are_exchanged() -> None:
             pins = {each.index for each in image.contacts[wire.name] if each.around == "pin"}
             found = [each for each in contacts(mirror, image.walls, reach_mm) if each.index not in pins]
             told = [each for each in image.contacts[wire.name] if each.around == "wall"]
-            assert [(each.side, each.index) for each in told] == [(each.side, each.index) for each in found]
-            spans, anew = (
-                [place for each in side for place in (each.start_mm, each.end_mm)] for side in (told, found)
-            )
-            assert spans == pytest.approx(anew, abs=0.21)
+            for each, anew in zip(sorted(told, key=where), sorted(found, key=where), strict=True):
+                assert (each.side, each.index) == (anew.side, anew.index)
+                assert each.start_mm == pytest.approx(anew.start_mm, abs=0.21)
+                assert each.end_mm == pytest.approx(anew.end_mm, abs=0.21)
+
+
+def where(contact: Contact) -> tuple[int, float]:
+    return contact.index, contact.start_mm
