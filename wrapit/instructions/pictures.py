@@ -28,6 +28,8 @@ BARB, BARB_RAD = 0.75, 0.5
 DISC = 1.25
 # Height of text on the print at true size: read at arm's length, and small beside the wires.
 PRINTED_TEXT_MM = 2.6
+# More letters of ties than this hide a piece of usual size; they stand in the steps' pictures too.
+PRINTED_TIES = 12
 # How finely wires are sampled where labels keep off them.
 SAMPLED_MM = 0.2
 
@@ -167,10 +169,12 @@ def cover_figure(scene: Scene, words: Text, caption: Text, ring: JumpRing | None
 
 
 def true_size_picture(scene: Scene, ties: Iterable[Tie]) -> Picture:
-    """The piece with wires as thick as they are, to lay them on: numbers at starts, letters at ties."""
+    """The piece with wires as thick as they are, to lay them on: numbers at starts, letters of a few ties."""
+    ties = tuple(ties)
     wanted = [(str(wire.number), wire.ends[:1]) for wire in scene.wires]
     starts = place_labels(wanted, scene.ink, DISC * PRINTED_TEXT_MM)
-    wanted = [(tie.letter, np.array([tie.point])) for tie in ties]
+    shown = ties if len(ties) <= PRINTED_TIES else ()
+    wanted = [(tie.letter, np.array([tie.point])) for tie in shown]
     letters = place_labels(wanted, scene.ink, DISC * PRINTED_TEXT_MM, starts)
     marks = [Mark(label.text, label.centre, "number", label.anchor) for label in starts]
     marks += [Mark(label.text, label.centre, "tie", label.anchor) for label in letters]

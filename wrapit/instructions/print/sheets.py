@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
+from wrapit.config import LengthUnit
 from wrapit.instructions.model import Strip, StripMark
 from wrapit.instructions.print.painting import INK, MM, Brush
+from wrapit.instructions.words.quantities import INCH_MM
 from wrapit.instructions.words.speaking import Speaker
 from wrapit.pages.model import Length, Picture, text
 
@@ -17,8 +19,8 @@ OVERLAP_MM: Final = 10.0
 # The lines to measure a print with, in mm and in inches; crosses and caption in mm.
 CHECK_MM, CHECK_IN = 50, 2
 CROSS_MM, CAPTION_MM = 4.0, 16.0
-# A strip: its height with what stands above and below, of its body, and of its ticks every 10 and 50 mm.
-STRIP_MM, BODY_MM, TICK_MM, TICK_50_MM = 24.0, 7.0, 1.5, 3.0
+# A strip: its height with what stands above and below, of its body, and of its short and long ticks.
+STRIP_MM, BODY_MM, TICK_MM, LONG_TICK_MM = 24.0, 7.0, 1.5, 3.0
 # Sizes of letters in points: of captions, of marks on strips.
 CAPTION_PT, MARK_PT = 9.0, 8.0
 # What stands where a shape starts and ends, in any language.
@@ -59,7 +61,7 @@ def check_lines(canvas: Any, speaker: Speaker, font: str, left_pt: float, bottom
     canvas.drawString(left_pt, bottom_pt + 8 * MM, speaker.of("print-scale", mm=CHECK_MM, inches=CHECK_IN))
     canvas.setLineWidth(0.5)
     for row, (length_mm, name) in enumerate(
-        ((CHECK_MM, f"{CHECK_MM} mm"), (CHECK_IN * 25.4, f"{CHECK_IN} in"))
+        ((CHECK_MM, f"{CHECK_MM} mm"), (CHECK_IN * INCH_MM, f"{CHECK_IN} in"))
     ):
         x, y = left_pt + row * 75 * MM, bottom_pt + 3 * MM
         canvas.line(x, y, x + length_mm * MM, y)
@@ -154,7 +156,7 @@ class StripPart:
             if there:
                 canvas.setLineWidth(1.0)
                 canvas.line(x(at_mm), foot - 2 * MM, x(at_mm), top + 2 * MM)
-        self._ruler(canvas, plain, x, foot)
+        self._ruler(canvas, plain, x, foot, speaker.unit)
         for mark in strip.marks:
             self._mark(canvas, bold, x, foot, top, mark)
         self._triangles(canvas, x, top)
@@ -165,14 +167,17 @@ class StripPart:
             return text("strip-title", wire=wire, length=length)
         return text("strip-part", wire=wire, length=length, part=self.part, parts=self.count)
 
-    def _ruler(self, canvas: Any, font: str, x: Any, foot: float) -> None:
+    def _ruler(self, canvas: Any, font: str, x: Any, foot: float, unit: LengthUnit) -> None:
+        """Ticks every centimetre with numbers every fifth, or every quarter of an inch with whole inches."""
         canvas.setLineWidth(0.3)
         canvas.setFont(font, MARK_PT - 2)
-        for at_mm in range(math.ceil(self.span.low / 10) * 10, math.floor(self.span.high) + 1, 10):
-            long = at_mm % 50 == 0
-            canvas.line(x(at_mm), foot, x(at_mm), foot + (TICK_50_MM if long else TICK_MM) * MM)
-            if long and at_mm:
-                canvas.drawString(x(at_mm) + 1.5, foot + 1.2 * MM, str(at_mm))
+        step_mm, numbered, named = (INCH_MM / 4, 4, 1 / INCH_MM) if unit == "in" else (10.0, 5, 1.0)
+        first, last = math.ceil(self.span.low / step_mm), math.floor(self.span.high / step_mm)
+        for tick in range(first, last + 1):
+            at_mm, long = tick * step_mm, tick % numbered == 0
+            canvas.line(x(at_mm), foot, x(at_mm), foot + (LONG_TICK_MM if long else TICK_MM) * MM)
+            if long and tick:
+                canvas.drawString(x(at_mm) + 1.5, foot + 1.2 * MM, f"{at_mm * named:.0f}")
 
     def _mark(self, canvas: Any, font: str, x: Any, foot: float, top: float, mark: StripMark) -> None:
         low, high = max(mark.start_mm, self.span.low), min(mark.end_mm, self.span.high)
