@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -19,7 +19,7 @@ from wrapit.instructions.order.ruler_strips import strips_of
 from wrapit.instructions.pictures import Scene, cover_figure, true_size_picture
 from wrapit.jig.bench.model import Handling
 from wrapit.jig.made import GuidePage
-from wrapit.pages.model import Length, text
+from wrapit.pages.model import Length, Paragraph, text
 from wrapit.wires.mirror import mirrored, mirrored_ring
 from wrapit.wires.model import JumpRing, Wire
 
@@ -85,7 +85,7 @@ def plan_guide(
         lead=lead,
         cover=cover_figure(whole, text("cover-picture"), caption, ring),
         true_size=true_size_picture(whole, ties),
-        pages=(*(Page(page.anchor, page.title, page.blocks) for page in pages), materials),
+        pages=(*_jig_pages(pages), materials),
         chapters=tuple(chapters),
         ties=ties,
         strips=strips,
@@ -94,6 +94,14 @@ def plan_guide(
         difficulty=effort[0],
         minutes=effort[1],
     )
+
+
+def _jig_pages(pages: Sequence[GuidePage]) -> Iterator[Page]:
+    """The pages of all kinds of jigs; those after the first say that one kind is enough."""
+    for page in pages:
+        alone = page is pages[0]
+        enough = () if alone else (Paragraph(text("other-jig", title=pages[0].title)),)
+        yield Page(page.anchor, page.title, (*enough, *page.blocks))
 
 
 def _other(

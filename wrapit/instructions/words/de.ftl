@@ -109,6 +109,7 @@ fact-time = Zeit
 time-about = etwa { $time }, wenn die Schablone fertig ist
 
 ## Die Schablone drucken
+other-jig = Eine Schablone genügt: diese, oder die von „{ $title }“, welche die Schritte zeigen.
 print-title = { $jigs ->
     [one] Die Schablone drucken
    *[other] Die Schablonen drucken
@@ -215,7 +216,7 @@ set-beads = { $count ->
    *[other] Setz die Perlen oder Steine ({ $sizes } dick) in ihre Sitze.
 }
 start-cut = Schneid { $cut } Draht ab, und markier ihn { $tail } von einem Ende: das ist der Überstand, und an der Marke beginnt die Form.
-start-hole = Steck den Überstand bis zur Marke nach unten in Loch { $hole }.
+start-hole = Steck den Überstand bis zur Marke durch Loch { $hole }, und bieg ihn unter der Platte flach um: so hält er den Draht, und die Schablone liegt flach.
 start-board = Halt die Marke über den Anfang auf der Zeichnung, mit Klebeband über dem Überstand.
 start-hand = Leg die Marke auf den Anfang in der Zeichnung in wahrer Größe, mit Klebeband über dem Überstand.
 start-unmarked = Für eine gravierte { $hole } neben dem Loch war kein Platz: das Bild zeigt es.
@@ -329,9 +330,9 @@ caution-no-peg = Bei { $places }: für diese Biegung steht kein Stift richtig. M
 ## Einen Draht enden lassen
 heading-end = Draht { $wire } beenden
 end-run = Geh { $length } gerade weiter.
-end-hole = Bieg das Ende nach unten in das Loch dort. Der Draht liegt.
-end-same-hole = Du bist wieder bei Loch { $hole }: bieg das Ende nach unten hinein. Der Draht liegt.
-end-numbered-hole = Bieg das Ende nach unten in Loch { $hole }, das dort ist. Der Draht liegt.
+end-hole = Bieg das Ende nach unten durch das Loch dort, und unter der Platte flach um. Der Draht liegt.
+end-same-hole = Du bist wieder bei Loch { $hole }: bieg das Ende nach unten hindurch, und unter der Platte flach um. Der Draht liegt.
+end-numbered-hole = Bieg das Ende nach unten durch Loch { $hole }, das dort ist, und unter der Platte flach um. Der Draht liegt.
 end-mark = Markier den Draht, wo die Linie endet. Was bleibt, ist der Überstand.
 
 ## Herausheben
@@ -342,8 +343,8 @@ heading-lift = { $count ->
 lift-press = Drück den Draht noch einmal überall nach unten und an die Wände.
 lift-tape = Kleb Streifen Klebeband quer darüber, damit die Drähte so aufeinander liegen bleiben.
 lift-anchored = { $count ->
-    [one] Schieb die Überstände von unten aus ihren Löchern, und heb den Draht heraus.
-   *[other] Schieb alle Überstände von unten aus ihren Löchern, und heb die Drähte zusammen heraus.
+    [one] Richte die Überstände unter der Platte gerade, schieb sie nach oben aus ihren Löchern, und heb den Draht heraus.
+   *[other] Richte alle Überstände unter der Platte gerade, schieb sie nach oben aus ihren Löchern, und heb die Drähte zusammen heraus.
 }
 lift-board = { $count ->
     [one] Zieh die Stifte heraus, und nimm den Draht ab.
@@ -382,7 +383,7 @@ tie-how = { $count ->
    *[other] Nimm für jede { $length } Bindedraht, und wickle ihn { $turns }-mal stramm um die { $strands } Stränge, die dort nebeneinander liegen.
 }
 heading-ends = Die Enden
-ends-straighten = Richte die Überstände mit der Flachzange gerade.
+ends-straighten = Zieh die Überstände mit der Flachzange gerade.
 ends-closed = { $count ->
     [one] Beide Überstände von { $wires } treffen sich: wickle jeden einmal um den Anfang des anderen
    *[other] Beide Überstände von { $wires } treffen sich jeweils: wickle jeden einmal um den Anfang des anderen

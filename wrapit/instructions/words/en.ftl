@@ -110,6 +110,7 @@ fact-time = Time
 time-about = about { $time } with the jig ready
 
 ## Printing the jig
+other-jig = One jig is enough: this one, or that of “{ $title }”, which the steps show.
 print-title = { $jigs ->
     [one] Print the jig
    *[other] Print the jigs
@@ -216,7 +217,7 @@ set-beads = { $count ->
    *[other] Set the beads or stones ({ $sizes } thick) into their seats.
 }
 start-cut = Cut { $cut } of wire, and mark it { $tail } from one end: that is the tail, and the mark is where the shape starts.
-start-hole = Push the tail down into hole { $hole } as far as the mark.
+start-hole = Push the tail down through hole { $hole } as far as the mark, and bend it flat below the plate: it holds the wire, and the jig lies flat.
 start-board = Hold the mark over the start on the drawing, with tape over the tail.
 start-hand = Lay the mark on the start in the drawing at true size, with tape over the tail.
 start-unmarked = There was no room to engrave { $hole } beside its hole: the picture shows it.
@@ -330,9 +331,9 @@ caution-no-peg = At { $places }: no peg stands right for this bend. Make it by h
 ## Ending a wire
 heading-end = End wire { $wire }
 end-run = Go straight on for { $length }.
-end-hole = Bend the end down into the hole there. The wire is laid.
-end-same-hole = You are back at hole { $hole }: bend the end down into it. The wire is laid.
-end-numbered-hole = Bend the end down into hole { $hole }, which is there. The wire is laid.
+end-hole = Bend the end down through the hole there, and flat below the plate. The wire is laid.
+end-same-hole = You are back at hole { $hole }: bend the end down through it, and flat below the plate. The wire is laid.
+end-numbered-hole = Bend the end down through hole { $hole }, which is there, and flat below the plate. The wire is laid.
 end-mark = Mark the wire where the line ends. What is left is the tail.
 
 ## Lifting out
@@ -343,8 +344,8 @@ heading-lift = { $count ->
 lift-press = Press the wire down and close to the walls once more, all along.
 lift-tape = Stick strips of tape across, so that the wires stay as they lie on one another.
 lift-anchored = { $count ->
-    [one] Push the tails up out of their holes from below, and lift the wire out.
-   *[other] Push all tails up out of their holes from below, and lift the wires out together.
+    [one] Straighten the tails below the plate, push them up out of their holes, and lift the wire out.
+   *[other] Straighten all tails below the plate, push them up out of their holes, and lift the wires out together.
 }
 lift-board = { $count ->
     [one] Pull the pegs, and take the wire off.
@@ -383,7 +384,7 @@ tie-how = { $count ->
    *[other] For each take { $length } of binding wire, and wind { $turns } tight turns round the { $strands } strands that lie side by side there.
 }
 heading-ends = Finish the ends
-ends-straighten = Straighten the tails with flat-nose pliers.
+ends-straighten = Pull the tails straight with flat-nose pliers.
 ends-closed = { $count ->
     [one] Both tails of { $wires } meet: wind each once round the other’s beginning
    *[other] Both tails of each of { $wires } meet: wind each once round the other’s beginning
