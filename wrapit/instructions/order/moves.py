@@ -201,11 +201,9 @@ def _one_sweep(moves: Sequence[Move]) -> list[Move]:
 
 def _goes_on(before: Move, move: Move) -> bool:
     """Whether two bends to one side are one to the hand: about as tight, or one of them slight."""
-    if before.turn_rad * move.turn_rad <= 0 or {before.kind, move.kind} - {"wrap", "curve", "straight"}:
+    if before.turn_rad * move.turn_rad <= 0 or {before.kind, move.kind} - {"wrap", "curve"}:
         return False
     if any(contact.around != "wall" for contact in (*before.contacts, *move.contacts)):
-        return False
-    if "straight" in (before.kind, move.kind):
         return False
     slight = min(abs(before.turn_rad), abs(move.turn_rad)) < SLIGHT_RAD
     ratio = before.radius_mm / move.radius_mm

@@ -98,7 +98,10 @@ def _ends(work: Work, whole: Scene) -> Step:
             any(abs(binding.at_mm - end_mm) < AT_TIE_MM for binding in wire.bindings)
             for end_mm in (0.0, wire.length_mm)
         ]
-        for tails, mine in ((wound, at_tie), (turned, [not each for each in at_tie])):
+        # The tail of a loop to hang the piece from goes round the loop's neck, as its own step says.
+        own = [True, True] if wire.bail is None else [wire.bail.start_mm > 0, wire.bail.start_mm <= 0]
+        for tails, tied in ((wound, True), (turned, False)):
+            mine = [free and each == tied for free, each in zip(own, at_tie, strict=True)]
             if any(mine):
                 which = "both" if all(mine) else "start" if mine[0] else "end"
                 tails.append(text(f"tail-{which}", wire=wire.number))

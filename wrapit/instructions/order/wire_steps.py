@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -80,7 +80,6 @@ def _start(laid: Laid, overbend: Sequence[Text]) -> Step:
     cautions = []
     if laid.bench is not None and wire.name in laid.bench.unmarked:
         cautions.append(text("start-unmarked", hole=wire.number))
-    # A bail comes before the drawing's own start.
     way = text("start-way", way=text(f"way-{direction(wire)}"))
     return Step(
         "start",
@@ -167,8 +166,6 @@ def _end_hole(laid: Laid) -> Text:
 
 def _with_notes(laid: Laid, step: Step) -> Step:
     """The step with what happens on its way: crossings, ties to come, doubled runs, what to mind."""
-    from dataclasses import replace
-
     wire = laid.wire
 
     def within(at_mm: float) -> bool:
@@ -230,8 +227,8 @@ def _along(wire: Wire, step: Step, runs: Sequence[int]) -> bool:
     return whole or sum(shared) > (step.end_mm - step.start_mm) / 2 > 0
 
 
-def _cautions(findings: Sequence[Finding], within: object) -> Iterator[Text]:
-    assert callable(within)
+def _cautions(findings: Sequence[Finding], within: Callable[[float], bool]) -> Iterator[Text]:
+    """One sentence for all places of a kind that a step passes."""
     for code in BY_HAND:
         places = sorted(
             at_mm
