@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
-from wrapit.instructions.order.wire_steps import BY_HAND
 
+from wrapit.instructions.order.wire_steps import BY_HAND
 from wrapit.instructions.words.quantities import half_millimetres
 from wrapit.pipeline.build import Build, build
 

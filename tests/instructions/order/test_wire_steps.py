@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator, Sequence
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from wrapit.instructions.order.wire_steps import BY_HAND, DIRECTIONS, Laid, direction, wire_steps
 
 from tests.exports.pieces_for_tests import eye
 from tests.instructions.order.walks import (
@@ -26,6 +25,7 @@ from wrapit.errors import Finding
 from wrapit.instructions.model import Step, Tie
 from wrapit.instructions.order.binding_order import find_ties
 from wrapit.instructions.order.crossings import crossings_over
+from wrapit.instructions.order.wire_steps import BY_HAND, DIRECTIONS, Laid, direction, wire_steps
 from wrapit.instructions.words.quantities import half_millimetres, sixteenths
 from wrapit.jig.bench.model import Bench
 from wrapit.pages.model import Length, Listed, Span, Text, Value

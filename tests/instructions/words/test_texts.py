@@ -13,11 +13,11 @@ import pytest
 from fluent.syntax import FluentParser
 from fluent.syntax import ast as ftl
 from fluent.syntax.visitor import Visitor
-from wrapit.instructions.order.wire_steps import BY_HAND, DIRECTIONS
 
 import wrapit
 from wrapit.instructions.model import Difficulty
 from wrapit.instructions.order.moves import MoveKind
+from wrapit.instructions.order.wire_steps import BY_HAND, DIRECTIONS
 from wrapit.jig.bench.model import Around
 from wrapit.materials import METALS
 from wrapit.pages.model import Listed
