@@ -15,7 +15,7 @@ from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.outlines.loops import Region, circle
 from wrapit.instructions.model import Step, Tie
-from wrapit.jig.bench.from_above import LINE, bounds_of, framed, start_marks
+from wrapit.jig.bench.from_above import DISC, INK_MM, LINE, bounds_of, framed, start_marks, with_room
 from wrapit.jig.bench.model import Bench
 from wrapit.pages.model import Figure, Mark, Picture, Point, Shape, Shared, Text, text
 from wrapit.wires.model import JumpRing, Wire
@@ -24,14 +24,10 @@ from wrapit.wires.model import JumpRing, Wire
 PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
 # Length of an arrow's barbs, and how far each stands off the line.
 BARB, BARB_RAD = 0.75, 0.5
-# Height of a label's place in that of text: that of the disc around a letter.
-DISC = 1.25
 # Height of text on the print at true size: read at arm's length, and small beside the wires.
 PRINTED_TEXT_MM = 2.6
 # More letters of ties than this hide a piece of usual size; they stand in the steps' pictures too.
 PRINTED_TIES = 12
-# How finely wires are sampled where labels keep off them.
-SAMPLED_MM = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +52,7 @@ class Scene:
     @staticmethod
     def of_piece(key: str, wires: Sequence[Wire], ties: Iterable[Tie] = ()) -> Scene:
         """The wires as they are in the piece, with room for the letters of ties."""
-        cloud = np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in wires])
+        cloud = np.vstack([chain_of(wire.centreline).sampled(INK_MM) for wire in wires])
         low, high, text_mm = framed(cloud, 1.0)
         boxes = [low, high]
         for label in tie_labels(ties, cloud, text_mm):
@@ -68,7 +64,7 @@ class Scene:
     @cached_property
     def ink(self) -> FloatArray:
         """Points (n, 2) all along the wires, which labels keep off."""
-        return np.vstack([chain_of(wire.centreline).sampled(SAMPLED_MM) for wire in self.wires])
+        return np.vstack([chain_of(wire.centreline).sampled(INK_MM) for wire in self.wires])
 
     @property
     def shared(self) -> dict[str, tuple[Shape, ...]]:
@@ -91,7 +87,7 @@ class Scene:
 
     def picture(self, shapes: Iterable[Shape | Shared], marks: Iterable[Mark] = ()) -> Picture:
         """A picture in this scene."""
-        return Picture(self.low, self.high, self.text_mm, tuple(shapes), tuple(marks))
+        return with_room(Picture(self.low, self.high, self.text_mm, tuple(shapes), tuple(marks)))
 
 
 def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ties: Sequence[Tie]) -> Figure:
@@ -164,7 +160,12 @@ def cover_figure(scene: Scene, words: Text, caption: Text, ring: JumpRing | None
     """The finished piece, each wire in its colour with its number where it starts."""
     everything = [wire.number for wire in scene.wires]
     return piece_figure(
-        scene, words, laid=everything, marks=start_marks(scene.wires), ring=ring, caption=caption
+        scene,
+        words,
+        laid=everything,
+        marks=start_marks(scene.wires, scene.text_mm),
+        ring=ring,
+        caption=caption,
     )
 
 

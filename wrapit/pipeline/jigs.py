@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding, UnheldError
 from wrapit.jig.made import MIRRORED, JigMaker, Made, Wires
+from wrapit.pipeline.exporting import write_drawings
 from wrapit.pipeline.solids import judged_solids, make_solids, write_wires
 from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import Worker
@@ -20,7 +21,7 @@ T = TypeVar("T")
 
 
 def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
-    """Makes every kind that the config asks for; solids' files go to `folder`.
+    """Makes every kind that the config asks for; files of solids and flat drawings go to `folder`.
 
     Raises UnheldError where the first kind would hold too little, and what `JigMaker.make` raises. A further
     kind that would is left out, and an error among the findings says so.
@@ -34,7 +35,10 @@ def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
         # Solids first: their process works while flat jigs are made here.
         for maker in sorted(makers, key=lambda maker: not maker.solid):
             if maker.plan is None or worker is None:
-                made[maker.kind] = _tried(maker.make, work)
+                made[maker.kind] = flat = _tried(maker.make, work)
+                if isinstance(flat, Made) and folder is not None:
+                    # Written now, while solids are made in their own process.
+                    write_drawings(folder, flat, work.config)
                 continue
             planned = _tried(maker.plan, work)
             if isinstance(planned, UnheldError):

@@ -10,7 +10,6 @@ from wrapit.jig.made import MIRRORED
 from wrapit.pipeline import report as reports
 from wrapit.pipeline.exporting import (
     write_alternatives,
-    write_drawings,
     write_guide,
     write_views,
 )
@@ -125,8 +124,6 @@ def _export(work: Work, worker: Worker | None, folder: Path) -> None:
     with work.stage("exports"):
         with wires_beside(work, worker, folder):
             write_views(folder, work.wires, jigs[0])
-            for made in jigs:
-                write_drawings(folder, made, work.config)
             if {"html", "pdf"} & set(work.config.outputs):
                 work.findings += write_guide(
                     folder, work.solution, work.wires, jigs, work.mirrored, work.ring, work.config

@@ -9,12 +9,13 @@ from markupsafe import Markup
 
 from wrapit.geometry import BezierChain, Region
 from wrapit.geometry.svgframe import SvgFrame, number
+from wrapit.jig.bench.from_above import disc_mm
 from wrapit.pages.model import Mark, Picture, Shape, Shared
 
 # The page's frame has the piece's origin at its own, y down; each picture's viewBox cuts out its part.
 FRAME: Final = SvgFrame(0.0, 0.0, 0.0, 0.0)
-# Sizes of marks in shares of the text's height: a disc around one letter, more for each further one; a dot.
-DISC, DISC_MORE, DOT = 0.62, 0.3, 0.4
+# Radius of a dot in shares of the text's height.
+DOT: Final = 0.4
 # How far text hangs below its middle, in its own height: for letters without descenders.
 DROP: Final = 0.36
 
@@ -77,14 +78,9 @@ def _mark(mark: Mark, picture: Picture) -> Iterator[Markup]:
         line = Markup('<line class="leader" x1="{}" y1="{}" x2="{}" y2="{}" stroke-width="{}"/>')
         yield line.format(x, y, anchor_x, anchor_y, number(0.08 * size))
     if mark.kind != "bare":
-        radius = disc_radius(mark, size)
+        radius = disc_mm(mark.text, size)
         disc = Markup('<circle class="{}" cx="{}" cy="{}" r="{}" stroke-width="{}"/>')
         yield disc.format(mark.kind, x, y, number(radius), number(0.06 * size))
     yield Markup('<text x="{}" y="{}" dy="{}em" font-size="{}">{}</text>').format(
         x, y, DROP, number(size), mark.text
     )
-
-
-def disc_radius(mark: Mark, text_mm: float) -> float:
-    """Of the disc behind a mark's text."""
-    return text_mm * (DISC + DISC_MORE * (len(mark.text) - 1))

@@ -8,7 +8,8 @@ from typing import Any, Final
 
 from wrapit.geometry import BezierChain, Region
 from wrapit.geometry.outlines.loops import as_chain
-from wrapit.instructions.page.picture_svg import DROP, disc_radius
+from wrapit.instructions.page.picture_svg import DOT, DROP
+from wrapit.jig.bench.from_above import disc_mm
 from wrapit.pages.model import Mark, Picture, Shape, Shared, Style
 
 MM: Final = 72 / 25.4  # points in a millimetre: what reportlab counts in
@@ -122,12 +123,12 @@ class Brush:
             canvas.line(x, y, *mark.anchor)
         if mark.kind == "dot":
             canvas.setFillColor(INK)
-            canvas.circle(x, y, 0.4 * size, stroke=0, fill=1)
+            canvas.circle(x, y, DOT * size, stroke=0, fill=1)
             return
         if mark.kind != "bare":
             canvas.setFillColor(DISCS[mark.kind])
             canvas.setLineWidth(0.06 * size)
-            canvas.circle(x, y, disc_radius(mark, size), stroke=1, fill=1)
+            canvas.circle(x, y, disc_mm(mark.text, size), stroke=1, fill=1)
         canvas.setFillColor(INK)
         canvas.setFont(self.font, size)
         canvas.drawCentredString(x, y - DROP * size, mark.text)

@@ -124,7 +124,7 @@ jig-for = { $jig }: für { $count ->
    *[other] die Drähte { $wires }
 }
 jig-picture = { $jig } von oben: Wände, Löcher und die Drähte, nummeriert am Anfang
-jig-caption = Die Schablone von oben. Braun sind ihre Wände, die farbigen Linien die Drähte; jede Nummer steht auf dem Loch, in dem dieser Draht beginnt.
+jig-caption = Die Schablone von oben. Braun sind ihre Wände, die farbigen Linien die Drähte; jede Nummer steht am Loch, in dem dieser Draht beginnt.
 fact-file = Datei
 file-one-of = { $files }
 file-none = keine verlangt: 3mf in outputs aufnehmen

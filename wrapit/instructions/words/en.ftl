@@ -125,7 +125,7 @@ jig-for = { $jig }: for { $count ->
    *[other] wires { $wires }
 }
 jig-picture = { $jig } from above: walls, holes and the wires, numbered where they start
-jig-caption = The jig from above. Brown are its walls, the coloured lines the wires; each number stands on the hole where that wire starts.
+jig-caption = The jig from above. Brown are its walls, the coloured lines the wires; each number stands at the hole where that wire starts.
 fact-file = File
 file-one-of = { $files }
 file-none = none was asked for: add 3mf to outputs
