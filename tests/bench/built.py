@@ -2,7 +2,7 @@
 
 All families of `families`, as SVG and PNG, 16 to 26 AWG, 25 to 150 mm; each is built in a process of its own
 with a time limit. What is built is read again: the solid's validity in the report, the triangles' edges
-counted here, no finding that is an error but those of the drawing.
+counted here, each STL sliced where there is a slicer, no finding that is an error but those of the drawing.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import collections
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,7 @@ from tests.bench.families import FAMILIES, lines_of, picture_of, svg_of
 GAUGES = (16, 18, 20, 22, 24, 26)
 SIZES_MM = (25, 150)
 LIMIT_S = 900
+SLICER = shutil.which("prusa-slicer")
 # Errors that a sound build may name: a further jig that would hold too little, and a bend that the drawing
 # has (the blobs of seed 0 turn in 0.03 mm) and wire doesn't take.
 OF_THE_DRAWING = {"jig-left-out", "tight-bend"}
@@ -41,6 +43,7 @@ def main(words: list[str] | None = None) -> None:
             print(f"  {seed:3}  {what:35s} {outcome}", flush=True)
     for outcome, times in outcomes.most_common():
         print(f"{times:4} of {count}: {outcome}")
+    print("Each STL was sliced." if SLICER else "There is no slicer here: no STL was sliced.")
 
 
 def built(config: Path, folder: Path) -> str:
@@ -63,8 +66,25 @@ def faults(folder: Path) -> list[str]:
     for path in sorted(folder.glob("*.stl")):
         count = open_edges(path)
         found += [f"{path.name} has {count} open edges"] if count else []
+        found += [f"{path.name} is not sliced: {said}" for said in refusals(path)]
     wrong = {finding["code"] for finding in report["findings"] if finding["level"] == "error"}
     return found + [f"error {code}" for code in sorted(wrong - OF_THE_DRAWING)]
+
+
+def refusals(path: Path) -> list[str]:
+    """What the slicer says where it makes nothing of an STL, or repairs it."""
+    if SLICER is None:
+        return []
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder) / "jig.gcode"
+        # A printer's bed as large as the jigs: size is no fault of the mesh.
+        bed = "0x0,400x0,400x400,0x400"
+        command = [SLICER, "--export-gcode", "--bed-shape", bed, "--output", str(made), str(path)]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        said = f"{run.stdout}\n{run.stderr}".strip().splitlines()
+        if run.returncode or not made.exists() or not made.stat().st_size:
+            return [said[-1] if said else "nothing said"]
+        return [line for line in said if re.search("repair|open edge|non-manifold", line, re.IGNORECASE)]
 
 
 def open_edges(path: Path) -> int:
