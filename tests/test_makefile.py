@@ -139,8 +139,10 @@ def test_each_config_is_built_when_its_drawing_is_touched_and_only_then(name: st
         "configs/ring.svg",
         "configs/ring.yaml",
         "wrapit/units.py",
-        "wrapit/instructions/templates/guide.css",
-        "wrapit/instructions/templates/guide.html.jinja",
+        "wrapit/instructions/page/guide.css",
+        "wrapit/instructions/page/guide.js",
+        "wrapit/instructions/page/guide.html.jinja",
+        "wrapit/instructions/words/de.ftl",
     ],
 )
 def test_a_touched_source_is_built_from_again(source: str, ring: Project) -> None:

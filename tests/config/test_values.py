@@ -49,7 +49,7 @@ def load(tmp_path: Path, text: str) -> Config:
         ("decomposition: {seed: " + "9" * 90 + "}", "a number of endless digits is out of range; choose"),
         ("bail: {at: [3 m, 0 mm]}", ":2:8 bail.at: 3 m is out of range; choose between -2 m and 2 m"),
         ("bail: {at: -3}", ":2:8 bail.at: -3 is out of range; choose between 0 and 99999"),
-        ("outputs: [step, step, step, step, stl, stl, stl]", ":2:1 outputs: a list of 7 is too long"),
+        ("outputs: [step, step, step, step, stl, stl, stl, stl]", ":2:1 outputs: a list of 8 is too long"),
         ("decomposition: {constraints: [{same_wire: [1]}]}", "same_wire: a list of 1 is too short; give at"),
     ],
 )  # fmt: skip
@@ -65,7 +65,7 @@ def test_a_range_is_told_with_its_place(tmp_path: Path, text: str, said: str) ->
         ("jig.seats", "{at: [0 mm, 0 mm], diameter: 3 mm}", 200),
         ("decomposition.constraints", "{cut_at: 1}", 1000),
         ("decomposition.annealing.operators", "join", 20),
-        ("outputs", "stl", 6),
+        ("outputs", "stl", 7),
     ],
 )
 def test_lists_are_bounded(tmp_path: Path, key: str, entry: str, most: int) -> None:

@@ -229,7 +229,7 @@ way-left = nach links
 way-lower-left = nach links unten
 way-down = nach unten
 way-lower-right = nach rechts unten
-spring-made-up = Die Schablone biegt den Draht etwas weiter, als das Stück zeigt, nämlich um das, was das Metall zurückfedert: drück ihn dicht an die Wände.
+spring-made-up = Die Schablone biegt den Draht etwas weiter, als das Stück zeigt, nämlich um das, was das Metall zurückfedert: drück ihn dicht an die Wände, heb ihn dann heraus, und lass ihn los.
 spring-further = Das Metall federt etwas zurück: bieg einen rechten Winkel mit einem Radius von { $radius } etwa { $angle }° weiter als nötig.
 
 ## Einen Draht entlang

@@ -230,7 +230,7 @@ way-left = to the left
 way-lower-left = down and to the left
 way-down = down
 way-lower-right = down and to the right
-spring-made-up = The jig bends the wire a little further than the piece shows, by what the metal springs back: press it close to the walls.
+spring-made-up = The jig bends the wire a little further than the piece shows, by what the metal springs back: press it close to the walls, then lift it out and let it go.
 spring-further = The metal springs back a little: bend a right angle with a radius of { $radius } about { $angle }° further than you need.
 
 ## Along a wire
