@@ -358,7 +358,7 @@ heading-again = Noch einmal wie Draht { $wire }
 again-like = Mach diesen Draht Schritt für Schritt wie Draht { $wire }, am selben Ort.
 again-lift = Heb ihn heraus.
 again-mirrored = Dreh ihn um: er ist das Spiegelbild.
-again-reversed = Im Stück liegt sein Ende, wo der Anfang gezeichnet ist: vertausch seine Enden.
+again-reversed = Im Stück liegt er andersherum: was hier sein Ende war, ist dort sein Anfang.
 
 ## Zusammensetzen
 heading-place = { $wires } auflegen

@@ -359,7 +359,7 @@ heading-again = Once more like wire { $wire }
 again-like = Make this wire like wire { $wire }, step by step, in the same place.
 again-lift = Lift it out.
 again-mirrored = Turn it over: it is the mirror image.
-again-reversed = In the piece its end lies where wire starts are drawn: turn it end for end.
+again-reversed = In the piece it lies end for end: what was its end here is its start there.
 
 ## Putting together
 heading-place = Lay { $wires }
