@@ -27,13 +27,15 @@ from tests.instructions.order.walks import (
     wire_along,
     with_bail,
 )
-from tests.jig.metal import circle, wires_of
+from tests.jig.metal import arcs, circle, wires_of
+from wrapit.config import Config
 from wrapit.geometry import BezierChain, Region, joined, straight
 from wrapit.instructions.order.moves import Move, moves_along
 from wrapit.instructions.order.repeats import stretches_of
 from wrapit.instructions.order.swings import STRAIGHT_RAD
 from wrapit.jig.bench.model import Bench
 from wrapit.jig.channel import SIDES
+from wrapit.jig.sheet.sheet_kind import make
 from wrapit.wires.mirror import mirrored
 from wrapit.wires.model import Side, Wire
 
@@ -188,3 +190,16 @@ def test_a_zigzag_is_one_step(angle: float) -> None:
     (stretch,), rest = stretches_of(moves_along(wire_along(tuple(parts)), ()))
     assert (len(stretch.pattern), stretch.times) == (2, 3)
     assert [move.kind for move in rest] == ["straight"]
+
+
+def test_a_wrap_goes_along_one_side_of_its_wall_then_round_the_tip() -> None:
+    """A petal round one wall: a wide side, the tip, and the other side."""
+    wires = wires_of([arcs((0, 0), 0, (20, -60), (2, -110), (20, -60))])
+    handling = make(wires, Config(drawing="x", jigs=["sheet"])).handling
+    assert handling is not None
+    (bench,) = handling.benches
+    moves = [move for move in moves_along(wires[0], bench.contacts["wire-01"]) if move.kind == "wrap"]
+    turned = [round(math.degrees(move.turn_rad)) for move in moves]
+    assert turned == pytest.approx([-60, -110, -60], abs=6)
+    assert moves[0].radius_mm > 3 * moves[1].radius_mm
+    assert all(move.contacts[0].index == moves[0].contacts[0].index for move in moves)

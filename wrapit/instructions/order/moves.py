@@ -13,6 +13,7 @@ from wrapit.instructions.order.swings import (
     SLACK_SHARE,
     STRAIGHT_RAD,
     Line,
+    at_corners,
     parted,
     swings,
 )
@@ -64,7 +65,7 @@ def moves_along(wire: Wire, contacts: Sequence[Contact]) -> tuple[Move, ...]:
     """The moves of one wire, end to end from 0 to its length.
 
     A wrap takes in all bending to its wall's side that follows on without a straight run, along the next
-    wall too; between wraps the wire is parted by the side to which it bends.
+    wall too, up to a corner; between wraps the wire is parted by the side to which it bends.
     """
     line = Line.of(wire)
     low, high = _beside_bail(line, wire)
@@ -72,7 +73,9 @@ def moves_along(wire: Wire, contacts: Sequence[Contact]) -> tuple[Move, ...]:
     reached = low
     for first, last, contact in _wraps(line, contacts, low, high):
         moves += _free(line, reached, first)
-        moves.append(replace(_move(line, "wrap", first, last), contacts=(contact,)))
+        moves += (
+            replace(_move(line, "wrap", a, b), contacts=(contact,)) for a, b in at_corners(line, first, last)
+        )
         reached = last
     moves += _free(line, reached, high)
     moves = _settled(_one_sweep(moves))

@@ -23,6 +23,9 @@ SLACK_SHARE: Final = 0.25
 SLACK_MM: Final = 3.0
 # A straight run shorter than this is no run: the hand goes from one bend into the next.
 LEAST_RUN_MM: Final = 1.5
+# A wire goes round a wall's corner where it bends so many times more than along most of it, by so much.
+CORNER_RATIO: Final = 2.5
+CORNER_RAD: Final = math.radians(40)
 # Less turning than this in one step is none: on straight runs rounding leaves 1e-15 to either side.
 NO_TURN_RAD: Final = 1e-9
 
@@ -90,6 +93,21 @@ def parted(line: Line, first: int, last: int) -> list[tuple[int, int]]:
         if line.length(first + a, first + b + 1) >= (LEAST_RUN_MM if at_end else SLACK_MM):
             cuts |= {first + a, first + b + 1}
     return list(itertools.pairwise(sorted(cuts)))
+
+
+def at_corners(line: Line, first: int, last: int) -> list[tuple[int, int]]:
+    """A wrap parted where it goes round corners of its wall: a hand wraps one side, then round the tip.
+
+    It stays whole where a part of it would bend to the other side.
+    """
+    bends = np.abs(line.turning[first:last])
+    cuts = {first, last}
+    for a, b in runs(bends > CORNER_RATIO * np.median(bends)):
+        if abs(line.turned(first + a, first + b + 1)) >= CORNER_RAD:
+            cuts |= {first + a, first + b + 1}
+    parts = list(itertools.pairwise(sorted(cuts)))
+    whole = line.turned(first, last)
+    return parts if all(whole * line.turned(a, b) > 0 for a, b in parts) else [(first, last)]
 
 
 def _sides(turning: FloatArray) -> FloatArray:
