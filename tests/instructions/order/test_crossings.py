@@ -14,7 +14,7 @@ from tests.instructions.order.walks import Part, Walk, course, lines, tangle, wa
 from tests.jig.metal import line, wires_of
 from wrapit.geometry import FloatArray
 from wrapit.instructions.model import Crossing
-from wrapit.instructions.order.crossings import ONE_PASS_DIAMETERS, crossings_over
+from wrapit.instructions.order.crossings import ONE_PASS_DIAMETERS, crossings_in
 from wrapit.wires.model import Wire
 from wrapit.wires.stacking import SELF_DIAMETERS
 
@@ -70,7 +70,7 @@ def count_groups(places: FloatArray, reach_mm: float) -> int:
 @settings(max_examples=25)
 def test_a_wire_over_itself(walk: Walk) -> None:
     wire = wire_along(walk)
-    found = crossings_over(wire, ())
+    found = crossings_in((wire,))[-1]
     assert {number for each in found for number in each.over} <= {wire.number}
     check(wire, (), found)
 
@@ -79,7 +79,7 @@ def test_a_wire_over_itself(walk: Walk) -> None:
 def test_wires_over_those_before_them(wires: tuple[Wire, ...]) -> None:
     for index, wire in enumerate(wires):
         laid = wires[:index]
-        found = crossings_over(wire, laid)
+        found = crossings_in((*laid, wire))[-1]
         allowed = {each.number for each in wires[: index + 1]}
         assert {number for each in found for number in each.over} <= allowed
         check(wire, laid, found)
@@ -87,9 +87,9 @@ def test_wires_over_those_before_them(wires: tuple[Wire, ...]) -> None:
 
 def test_a_weave_passes_over_each_thread_that_lies_there() -> None:
     wires = woven(3)
-    total = sum(len(crossings_over(wire, wires[:index])) for index, wire in enumerate(wires))
+    total = sum(len(crossings_in((*wires[:index], wire))[-1]) for index, wire in enumerate(wires))
     assert total > 0
-    assert crossings_over(wires[0], ()) == ()
+    assert crossings_in((wires[0],))[-1] == ()
 
 
 @given(st.floats(1.05, 20), st.lists(lines(), min_size=1, max_size=3))
@@ -99,7 +99,7 @@ def test_wires_side_by_side_are_no_crossing(times: float, parts: list[Part]) -> 
     first, second = wires_of([line((0, 0), (length_mm, 0)), line((0, 1), (length_mm, 1))])
     away_mm = times * first.diameter_mm
     first, second = wires_of([line((0, 0), (length_mm, 0)), line((0, away_mm), (length_mm, away_mm))])
-    assert crossings_over(second, (first,)) == ()
+    assert crossings_in((first, second))[-1] == ()
 
 
 @given(st.floats(15, 165), st.floats(-8, 8))
@@ -108,6 +108,6 @@ def test_two_straight_wires_cross_where_they_cross(angle_deg: float, offset_mm: 
     direction = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
     ends = [(offset_mm + sign * 30 * direction[0], sign * 30 * direction[1]) for sign in (-1, 1)]
     first, second = wires_of([line((-60, 0), (60, 0)), line(ends[0], ends[1])])
-    (crossing,) = crossings_over(second, (first,))
+    (crossing,) = crossings_in((first, second))[-1]
     assert crossing.over == (1,)
     assert crossing.at_mm == pytest.approx(30, abs=0.11)

@@ -24,7 +24,7 @@ from wrapit.config import GuideConfig
 from wrapit.errors import Finding
 from wrapit.instructions.model import Step, Tie
 from wrapit.instructions.order.binding_order import find_ties
-from wrapit.instructions.order.crossings import crossings_over
+from wrapit.instructions.order.crossings import crossings_in
 from wrapit.instructions.order.wire_steps import BY_HAND, DIRECTIONS, Laid, direction, wire_steps
 from wrapit.instructions.words.quantities import half_millimetres, sixteenths
 from wrapit.jig.bench.model import Bench
@@ -62,7 +62,7 @@ def places_in(texts: Sequence[Text], key: str) -> list[float]:
 
 def laid(wire: Wire, bench: Bench | None, earlier: Sequence[Wire], findings: Sequence[Finding] = ()) -> Laid:
     ties = {tie.junction: tie for tie in find_ties([*earlier, wire], CONFIG.binding_gauge, 5)}
-    return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), tuple(findings))
+    return Laid(wire, bench, tuple(earlier), ties, crossings_in((*earlier, wire))[-1], tuple(findings))
 
 
 def check(each: Laid, steps: Sequence[Step]) -> None:

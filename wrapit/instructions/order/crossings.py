@@ -12,18 +12,42 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.arrays import runs
 from wrapit.instructions.model import Crossing
 from wrapit.wires.model import Wire
+from wrapit.wires.nearness import Neighbours
 from wrapit.wires.stacking import SELF_DIAMETERS, STEP_MM
 
 # Two passes this near each other along the wire are one to the hand: it lies on the others all the while.
 ONE_PASS_DIAMETERS: Final = 2.0
 
 
-def crossings_over(wire: Wire, laid: Sequence[Wire]) -> tuple[Crossing, ...]:
-    """Places in the order of the wire where it is nearer than a diameter to what lies there already."""
-    at_mm, points = _stations(wire)
-    below = {each.number: _near(points, _stations(each)[1], wire.diameter_mm) for each in laid}
-    below[wire.number] = _near_itself(at_mm, points, wire.diameter_mm)
-    over = np.any(list(below.values()), axis=0)
+def crossings_in(wires: Sequence[Wire]) -> tuple[tuple[Crossing, ...], ...]:
+    """For each wire in the order of laying, where it is nearer than a diameter to what lies there already.
+
+    All have one diameter.
+    """
+    stations = [_stations(wire) for wire in wires]
+    cloud = Neighbours.of(np.concatenate([points for _, points in stations]), wires[0].diameter_mm)
+    at_mm = np.concatenate([places for places, _ in stations])
+    owner = np.repeat([wire.number for wire in wires], [len(places) for places, _ in stations])
+    found, first = [], 0
+    for wire, (places, _) in zip(wires, stations, strict=True):
+        laid = slice(first, first + len(places))
+        found.append(_crossings(wire, cloud, laid, at_mm, owner))
+        first = laid.stop
+    return tuple(found)
+
+
+def _crossings(
+    wire: Wire, cloud: Neighbours, laid: slice, at_mm: FloatArray, owner: FloatArray
+) -> tuple[Crossing, ...]:
+    below: dict[int, set[int]] = {}
+    for near in cloud.before(laid):
+        own = owner[near.earlier] == wire.number
+        apart = at_mm[near.later] - at_mm[near.earlier] > SELF_DIAMETERS * wire.diameter_mm
+        for later, earlier in zip(near.later[~own | apart], near.earlier[~own | apart], strict=True):
+            below.setdefault(int(later) - laid.start, set()).add(int(owner[earlier]))
+    places = at_mm[laid]
+    over = np.zeros(len(places), bool)
+    over[list(below)] = True
     gap = round(ONE_PASS_DIAMETERS * wire.diameter_mm / STEP_MM)
     passes: list[tuple[int, int]] = []
     for first, last in runs(over):
@@ -33,8 +57,8 @@ def crossings_over(wire: Wire, laid: Sequence[Wire]) -> tuple[Crossing, ...]:
             passes.append((first, last))
     return tuple(
         Crossing(
-            float(at_mm[first] + at_mm[last]) / 2,
-            tuple(number for number, mask in below.items() if mask[first : last + 1].any()),
+            float(places[first] + places[last]) / 2,
+            tuple(sorted(set().union(*(below.get(each, set()) for each in range(first, last + 1))))),
         )
         for first, last in passes
     )
@@ -44,22 +68,3 @@ def _stations(wire: Wire) -> tuple[FloatArray, FloatArray]:
     lengths = ArcLength(wire.centreline)
     at_mm = lengths.stations(STEP_MM)
     return at_mm, wire.centreline.at(lengths.parameter(at_mm))
-
-
-def _near(points: FloatArray, others: FloatArray, within_mm: float) -> FloatArray:
-    from scipy.spatial import cKDTree
-
-    distance, _ = cKDTree(others).query(points, distance_upper_bound=within_mm)
-    return np.asarray(distance < within_mm)
-
-
-def _near_itself(at_mm: FloatArray, points: FloatArray, within_mm: float) -> FloatArray:
-    """Where the wire is near a place that it ran through before, farther back than it can help."""
-    from scipy.spatial import cKDTree
-
-    pairs = cKDTree(points).query_pairs(within_mm, output_type="ndarray")
-    earlier, later = pairs.min(axis=1), pairs.max(axis=1)
-    apart = at_mm[later] - at_mm[earlier] > SELF_DIAMETERS * within_mm
-    mask = np.zeros(len(points), bool)
-    mask[later[apart]] = True
-    return mask

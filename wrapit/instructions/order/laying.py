@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from wrapit.config import GuideConfig, WireConfig
-from wrapit.instructions.model import Chapter, Step
-from wrapit.instructions.order.crossings import crossings_over
+from wrapit.instructions.model import Chapter, Crossing, Step
+from wrapit.instructions.order.crossings import crossings_in
 from wrapit.instructions.order.guide_work import Work
 from wrapit.instructions.order.putting_together import put_together
 from wrapit.instructions.order.springing import springs_back
@@ -69,8 +69,9 @@ def _in_jig(
     """The chapters of one jig, and what comes out of it at once each time."""
     chapters: list[Chapter] = []
     last = len(bench.wires) - 1
+    crossed = crossings_in(bench.wires)
     for index, wire in enumerate(bench.wires):
-        laid = _laid(work, wire, bench, bench.wires[:index])
+        laid = _laid(work, wire, bench, bench.wires[:index], crossed[index])
         steps = list(wire_steps(laid, _overbend(work, wire, wire_config)))
         if index == 0:
             steps[0] = replace(steps[0], texts=(*_take(work, bench), *steps[0].texts))
@@ -89,11 +90,12 @@ def _in_jig(
     return chapters, groups
 
 
-def _laid(work: Work, wire: Wire, bench: Bench | None, earlier: Sequence[Wire]) -> Laid:
+def _laid(
+    work: Work, wire: Wire, bench: Bench | None, earlier: Sequence[Wire], crossings: tuple[Crossing, ...]
+) -> Laid:
     mine = tuple(finding for finding in work.findings if finding.wire == wire.name)
     ties = {tie.junction: tie for tie in work.ties}
-    # By hand nothing lies there yet but the wire's own beginning.
-    return Laid(wire, bench, tuple(earlier), ties, crossings_over(wire, earlier), mine, work.bridges)
+    return Laid(wire, bench, tuple(earlier), ties, crossings, mine, work.bridges)
 
 
 def _overbend(work: Work, wire: Wire, wire_config: WireConfig) -> tuple[Text, ...]:
@@ -158,7 +160,8 @@ def _again(wire: Wire, like: Wire, form: SameShape, bench: Bench, scene: Scene) 
 
 def _by_hand(work: Work, wire: Wire, whole: Scene, wire_config: WireConfig) -> Chapter:
     """A wire that no jig holds: bent over the print at true size."""
-    laid = _laid(work, wire, None, ())
+    # Nothing lies there yet but the wire's own beginning.
+    laid = _laid(work, wire, None, (), crossings_in((wire,))[0])
     steps = [
         _pictured(step, wire, whole, laid) for step in wire_steps(laid, _overbend(work, wire, wire_config))
     ]
