@@ -15,7 +15,7 @@ from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.outlines.loops import Region, circle
 from wrapit.instructions.model import Step, Tie
-from wrapit.jig.bench.from_above import DISC, INK_MM, LINE, bounds_of, framed, start_marks, with_room
+from wrapit.jig.bench.from_above import DISC, INK_MM, LINE, bounds_of, framed, ink_of, start_marks, with_room
 from wrapit.jig.bench.model import Bench
 from wrapit.pages.model import Figure, Mark, Picture, Point, Shape, Shared, Text, text
 from wrapit.wires.model import JumpRing, Wire
@@ -24,6 +24,8 @@ from wrapit.wires.model import JumpRing, Wire
 PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
 # Length of an arrow's barbs, and how far each stands off the line.
 BARB, BARB_RAD = 0.75, 0.5
+# How far around its place ink matters to a label, in heights of text: none was seen to be put farther off.
+NEAR = 10.0
 # Height of text on the print at true size: read at arm's length, and small beside the wires.
 PRINTED_TEXT_MM = 2.6
 # More letters of ties than this hide a piece of usual size; they stand in the steps' pictures too.
@@ -52,10 +54,9 @@ class Scene:
     @staticmethod
     def of_piece(key: str, wires: Sequence[Wire], ties: Iterable[Tie] = ()) -> Scene:
         """The wires as they are in the piece, with room for the letters of ties."""
-        cloud = np.vstack([chain_of(wire.centreline).sampled(INK_MM) for wire in wires])
-        low, high, text_mm = framed(cloud, 1.0)
+        low, high, text_mm = framed(np.vstack([chain_of(w.centreline).sampled(INK_MM) for w in wires]), 1.0)
         boxes = [low, high]
-        for label in tie_labels(ties, cloud, text_mm):
+        for label in tie_labels(ties, ink_of(wires, text_mm), text_mm):
             (x, y), (half_x, half_y) = label.centre, label.half_size
             boxes += [(x - half_x, y - half_y), (x + half_x, y + half_y)]
         low, high, text_mm = framed(np.array(boxes), 0.5 * text_mm)
@@ -64,7 +65,7 @@ class Scene:
     @cached_property
     def ink(self) -> FloatArray:
         """Points (n, 2) all along the wires, which labels keep off."""
-        return np.vstack([chain_of(wire.centreline).sampled(INK_MM) for wire in self.wires])
+        return ink_of(self.wires, self.text_mm)
 
     @property
     def shared(self) -> dict[str, tuple[Shape, ...]]:
@@ -202,8 +203,11 @@ def tie_marks(scene: Scene, ties: Sequence[Tie]) -> Mapping[str, Mark]:
 
 def _marks(scene: Scene, ties: Sequence[Tie], number: str, start: FloatArray) -> Iterator[Mark]:
     """The wire's number beside its start, and the letters of ties, none on another."""
-    (beside,) = place_labels([(number, start[None])], scene.ink, DISC * scene.text_mm)
+    places = [start, *(np.array(tie.point) for tie in ties)]
+    near = np.min([np.abs(scene.ink - place).max(axis=1) for place in places], axis=0)
+    ink = scene.ink[near < NEAR * scene.text_mm]
+    (beside,) = place_labels([(number, start[None])], ink, DISC * scene.text_mm)
     yield Mark(number, beside.centre, "number", beside.anchor)
     wanted = [(tie.letter, np.array([tie.point])) for tie in ties]
-    for label in place_labels(wanted, scene.ink, DISC * scene.text_mm, (beside,)):
+    for label in place_labels(wanted, ink, DISC * scene.text_mm, (beside,)):
         yield Mark(label.text, label.centre, "tie", label.anchor)

@@ -126,3 +126,11 @@ def test_what_is_missing_is_an_error() -> None:
         MM.say(text("lead-on"))
     with pytest.raises(LookupError):
         MM.say(text("no-such-key"))
+
+
+def test_lists_of_any_length_are_said() -> None:
+    many = listed(text("tie-at", letter=f"T{index}", at=Length(index)) for index in range(900))
+    said = Speaker("en", "mm").of("note-ties", places=many, count=900)
+    assert said.startswith("On the way are places to tie later: T0 (0")
+    assert "T450 (450" in said
+    assert said.endswith("and T899 (899\u00a0mm).")

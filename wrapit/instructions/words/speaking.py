@@ -20,6 +20,9 @@ from wrapit.pages.model import Duration, Length, Listed, Mass, Span, Text, Thick
 
 # Between a number and its unit, which stay on one line.
 UNIT = "\u00a0"
+# Fluent refuses what is longer than 2500 letters, as the list of a large piece's ties; such words are put in
+# afterwards, where a letter that no text has marks their place.
+LONG, PLACE = 1000, "\ue000"
 
 
 class Speaker:
@@ -40,9 +43,17 @@ class Speaker:
         if message.value is None:
             raise KeyError(said.key)
         values = {name: self._worded(value) for name, value in said.values}
+        long = {
+            f"{PLACE}{name}{PLACE}": value
+            for name, value in values.items()
+            if isinstance(value, str) and len(value) > LONG
+        }
+        values |= {place.strip(PLACE): place for place in long}
         sentence, errors = self._bundle.format_pattern(message.value, values)
         if errors:
             raise ValueError(f"{said.key}: {errors[0]}")
+        for place, words in long.items():
+            sentence = sentence.replace(place, words)
         return str(sentence)
 
     def of(self, key: str, **values: Value) -> str:

@@ -21,7 +21,7 @@ TEXT = 0.045
 LINE = 0.16
 # Across a letter's disc, in heights of text.
 DISC = 1.25
-# How finely wires are sampled where labels keep off them.
+# How finely wires are sampled where labels keep off them, at least: an eighth of the text's height will do.
 INK_MM = 0.2
 # How finely plates are sampled for a picture's size.
 SAMPLED_MM = 0.05
@@ -75,10 +75,16 @@ def start_marks(wires: Sequence[Wire], text_mm: float) -> tuple[Mark, ...]:
     crowded = [mark for mark in marks if any(_touch(mark, other, text_mm) for other in marks)]
     if not crowded:
         return tuple(marks)
-    ink = np.vstack([chain_of(wire.centreline).sampled(INK_MM) for wire in wires])
+    ink = ink_of(wires, text_mm)
     wanted = [(mark.text, np.array([mark.at])) for mark in marks]
     labels = place_labels(wanted, ink, DISC * text_mm)
     return tuple(Mark(label.text, label.centre, "number", label.anchor) for label in labels)
+
+
+def ink_of(wires: Sequence[Wire], text_mm: float) -> FloatArray:
+    """Points (n, 2) all along the wires, near enough to one another that no label slips between."""
+    step_mm = max(INK_MM, text_mm / 8)
+    return np.vstack([chain_of(wire.centreline).sampled(step_mm) for wire in wires])
 
 
 def disc_mm(letters: str, text_mm: float) -> float:
