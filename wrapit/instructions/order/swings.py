@@ -106,8 +106,9 @@ def at_corners(line: Line, first: int, last: int) -> list[tuple[int, int]]:
         if abs(line.turned(first + a, first + b + 1)) >= CORNER_RAD:
             cuts |= {first + a, first + b + 1}
     parts = list(itertools.pairwise(sorted(cuts)))
-    whole = line.turned(first, last)
-    return parts if all(whole * line.turned(a, b) > 0 for a, b in parts) else [(first, last)]
+    side = np.sign(line.turned(first, last))
+    one_way = all(side * line.turned(a, b) > -NO_TURN_RAD for a, b in parts)
+    return parts if one_way else [(first, last)]
 
 
 def _sides(turning: FloatArray) -> FloatArray:
