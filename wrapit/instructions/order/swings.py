@@ -102,7 +102,8 @@ def at_corners(line: Line, first: int, last: int) -> list[tuple[int, int]]:
     """
     bends = np.abs(line.turning[first:last])
     cuts = {first, last}
-    for a, b in runs(bends > CORNER_RATIO * np.median(bends)):
+    # Where most of a wrap is straight, its corner is what bends more than on the whole.
+    for a, b in runs(bends > max(CORNER_RATIO * np.median(bends), bends.mean())):
         if abs(line.turned(first + a, first + b + 1)) >= CORNER_RAD:
             cuts |= {first + a, first + b + 1}
     parts = list(itertools.pairwise(sorted(cuts)))
