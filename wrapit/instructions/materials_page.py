@@ -25,7 +25,7 @@ from wrapit.pages.model import (
 from wrapit.wires.model import JumpRing, Wire
 
 # How long hands take, in minutes: to get ready, to cut and begin a wire, for a step along it, a tie, a tail.
-# A rule of thumb: the paper's participants made pieces of four to six wires within half an hour.
+# A rule of thumb: the paper's participants all finished their pieces within half an hour.
 READY_MIN, WIRE_MIN, STEP_MIN, TIE_MIN, TAIL_MIN = 4.0, 1.5, 0.5, 2.0, 0.5
 # From so many steps and ties on a piece asks for patience, and from so many for experience.
 MEDIUM_STEPS: Final = 25
@@ -115,7 +115,7 @@ def _cut_list(wires: Sequence[Wire], pieces: int) -> Table:
         (
             text("wire-capital", wire=wire.number),
             text("cut-pieces", length=Length(wire.cut_length_mm), count=pieces),
-            text("length", value=Length((wire.cut_length_mm - wire.length_mm) / 2)),
+            text("length", value=Length(wire.tail_mm)),
             text("length", value=Length(wire.length_mm)),
         )
         for wire in wires

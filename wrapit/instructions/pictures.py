@@ -24,7 +24,7 @@ from wrapit.wires.model import JumpRing, Wire
 PRESENT, EDGE, ARROW = 0.3, 0.52, 0.16
 # Length of an arrow's barbs, and how far each stands off the line.
 BARB, BARB_RAD = 0.75, 0.5
-# How far around its place ink matters to a label, in heights of text: none was seen to be put farther off.
+# How far around its place ink matters to a label, in heights of text: farther off it would name nothing.
 NEAR = 10.0
 # Height of text on the print at true size: read at arm's length, and small beside the wires.
 PRINTED_TEXT_MM = 2.6
@@ -152,8 +152,7 @@ def piece_figure(
         else:
             shapes.append(Shared(scene.wire_key(wire.number), "later", "", LINE * scene.text_mm))
     if ring is not None:
-        middle = (ring.inner_diameter_mm + ring.diameter_mm) / 2
-        shapes.append(Shape(Region(circle(ring.point, middle)), "ring", "", ring.diameter_mm))
+        shapes.append(Shape(Region(circle(ring.point, ring.radius_mm)), "ring", "", ring.diameter_mm))
     return Figure(scene.picture(shapes, marks), words, caption)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.errors import Finding
+from wrapit.geometry.bspline import chain_of
 from wrapit.instructions.materials_page import effort_of, materials_page
 from wrapit.instructions.model import Chapter, Guide, Page
 from wrapit.instructions.order.binding_order import find_ties
@@ -58,8 +59,7 @@ def plan_guide(
     pair = other is not None
     first = Work("", tuple(wires), held.handling, ties, held.findings, ring, bridges, of_pair=pair)
     chapters, scenes = chapters_of(first, guide_config, wire_config)
-    forms = held.handling.forms if held.handling is not None else ()
-    strips = strips_of(wires, forms, chapters, ties)
+    strips = strips_of(wires, first.forms, chapters, ties)
     effort = effort_of(chapters, wires, ties)
     if other is not None:
         more, more_scenes = _other(first, other, guide_config, wire_config)
@@ -73,7 +73,7 @@ def plan_guide(
         guide_config,
         wire_config,
         pieces=pieces,
-        benches=held.handling.benches if held.handling is not None else (),
+        benches=first.benches,
         effort=effort,
     )
     width, height = size_mm(wires)
@@ -125,8 +125,6 @@ def _other(
 
 def size_mm(wires: Sequence[Wire]) -> tuple[float, float]:
     """Width and height of the finished piece, its wires' thickness and loops to hang it from included."""
-    from wrapit.geometry.bspline import chain_of
-
     clouds = [chain_of(wire.centreline).sampled(0.05) for wire in wires]
     low = np.min([cloud.min(axis=0) for cloud in clouds], axis=0)
     high = np.max([cloud.max(axis=0) for cloud in clouds], axis=0)

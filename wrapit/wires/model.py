@@ -124,6 +124,11 @@ class Wire:
         return wire_name(self.number - 1)
 
     @property
+    def tail_mm(self) -> float:
+        """Spare wire at each end, to hold and to bend down."""
+        return (self.cut_length_mm - self.length_mm) / 2
+
+    @property
     def ends(self) -> FloatArray:
         """First and last point, (2, 2)."""
         return self.centreline.poles[[0, -1]]

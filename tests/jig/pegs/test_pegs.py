@@ -22,6 +22,7 @@ from wrapit.jig.kinds import JIGS
 from wrapit.jig.pegs.drawing import MARK_MM
 from wrapit.jig.pegs.model import Board, PegPlan, hole_name
 from wrapit.jig.pegs.placing import SHIFTS, SQUEEZE_MM, place_pegs
+from wrapit.pages.model import Caution
 from wrapit.pipeline.build import build
 
 CURLS = st.lists(
@@ -162,3 +163,11 @@ def test_a_ring_has_no_start_hole_to_push_wire_into() -> None:
     assert len(bench.contacts["wire-01"]) > 0
     assert all(contact.label for contact in bench.contacts["wire-01"])
     assert made.parts == ()
+
+
+@pytest.mark.parametrize("pair", [False, True])
+def test_the_board_of_a_pair_is_mirrored_for_the_other(pair: bool) -> None:
+    settings = Config(drawing="x", pair=pair, jig={"least_support": 0})
+    page = JIGS["pegs"].make(wires_of([circle(9)]), settings).page
+    assert page is not None
+    assert any(isinstance(block, Caution) for block in page.blocks) == pair

@@ -140,9 +140,8 @@ def _lift(bench: Bench, scene: Scene) -> Step:
 
 def _again(wire: Wire, like: Wire, form: SameShape, bench: Bench, scene: Scene) -> Step:
     """A wire that is made in the place of another: once more, then turned over where it is mirrored."""
-    tail_mm = (wire.cut_length_mm - wire.length_mm) / 2
     texts = [
-        text("start-cut", cut=Length(wire.cut_length_mm), tail=Length(tail_mm)),
+        text("start-cut", cut=Length(wire.cut_length_mm), tail=Length(wire.tail_mm)),
         text("again-like", wire=like.number),
         text("again-lift"),
     ]

@@ -23,7 +23,7 @@ def strips_of(
     for wire in wires:
         form = by_wire.get(wire.name)
         like = number[form.like] if form is not None else wire.number
-        tail_mm = (wire.cut_length_mm - wire.length_mm) / 2
+        tail_mm = wire.tail_mm
         marks = [
             StripMark(tail_mm, tail_mm, "", "start"),
             StripMark(tail_mm + wire.length_mm, tail_mm + wire.length_mm, "", "end"),

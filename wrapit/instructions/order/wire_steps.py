@@ -69,8 +69,7 @@ def wire_steps(laid: Laid, overbend: Sequence[Text]) -> tuple[Step, ...]:
 
 def _start(laid: Laid, overbend: Sequence[Text]) -> Step:
     wire = laid.wire
-    tail_mm = (wire.cut_length_mm - wire.length_mm) / 2
-    cut = text("start-cut", cut=Length(wire.cut_length_mm), tail=Length(tail_mm))
+    cut = text("start-cut", cut=Length(wire.cut_length_mm), tail=Length(wire.tail_mm))
     if laid.anchored:
         placed = text("start-hole", hole=wire.number)
     elif laid.bench is not None:

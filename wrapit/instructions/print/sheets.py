@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from wrapit.config import LengthUnit
 from wrapit.instructions.model import Strip, StripMark
-from wrapit.instructions.print.painting import INK, MM, Brush
+from wrapit.instructions.print.painting import INK, LOOKS, MM, Brush
 from wrapit.instructions.words.quantities import INCH_MM
 from wrapit.instructions.words.speaking import Speaker
 from wrapit.pages.model import Length, Picture, text
@@ -28,7 +28,7 @@ ENDS: Final = {"start": "S", "end": "E"}
 
 
 @dataclass(frozen=True)
-class Span:
+class Slice:
     """A part of something long, in mm; `first` and `last` say that nothing comes before or after."""
 
     low: float
@@ -37,18 +37,18 @@ class Span:
     last: bool
 
 
-def parts_of(length_mm: float, room_mm: float) -> tuple[Span, ...]:
+def parts_of(length_mm: float, room_mm: float) -> tuple[Slice, ...]:
     """A length parted so that each part has room, with OVERLAP_MM in common with the next.
 
     >>> [(part.low, part.high) for part in parts_of(250.0, 100.0)]
     [(0.0, 100.0), (90.0, 190.0), (180.0, 250.0)]
     """
     if length_mm <= room_mm:
-        return (Span(0.0, length_mm, True, True),)
+        return (Slice(0.0, length_mm, True, True),)
     step = room_mm - OVERLAP_MM
     count = math.ceil((length_mm - OVERLAP_MM) / step)
     return tuple(
-        Span(index * step, min(index * step + room_mm, length_mm), index == 0, index == count - 1)
+        Slice(index * step, min(index * step + room_mm, length_mm), index == 0, index == count - 1)
         for index in range(count)
     )
 
@@ -78,14 +78,14 @@ class TrueSize:
     room_mm: tuple[float, float]
 
     @property
-    def parts(self) -> tuple[tuple[Span, Span], ...]:
+    def parts(self) -> tuple[tuple[Slice, Slice], ...]:
         """(across, up) of each part; the picture's lower left corner is 0, 0."""
         width = self.picture.high[0] - self.picture.low[0]
         height = self.picture.high[1] - self.picture.low[1]
         rows = parts_of(height, self.room_mm[1])
         return tuple((across, up) for up in reversed(rows) for across in parts_of(width, self.room_mm[0]))
 
-    def paint(self, brush: Brush, part: tuple[Span, Span], left_pt: float, bottom_pt: float) -> None:
+    def paint(self, brush: Brush, part: tuple[Slice, Slice], left_pt: float, bottom_pt: float) -> None:
         """One part with its lower left corner there, and crosses where neighbours are laid on."""
         across, up = part
         canvas = brush.canvas
@@ -108,7 +108,7 @@ class TrueSize:
             canvas.line(at_x, at_y - arm, at_x, at_y + arm)
 
 
-def _crosses(across: Span, up: Span) -> Iterator[tuple[float, float]]:
+def _crosses(across: Slice, up: Slice) -> Iterator[tuple[float, float]]:
     """Two crosses in the middle of each overlap, a quarter from its ends."""
     half = OVERLAP_MM / 2
     columns = [
@@ -130,7 +130,7 @@ class StripPart:
     """One row of a wire's ruler strip: `part` of `count`."""
 
     strip: Strip
-    span: Span
+    span: Slice
     part: int
     count: int
 
@@ -185,7 +185,7 @@ class StripPart:
             return
         canvas.setFont(font, MARK_PT)
         if mark.kind == "wrap":
-            canvas.setFillColor("#d9c7a3")
+            canvas.setFillColor(LOOKS["wall"][0])
             canvas.setLineWidth(0.4)
             canvas.rect(x(low), top - 2.4 * MM, max(x(high) - x(low), 0.5), 2.4 * MM, stroke=1, fill=1)
             canvas.setFillColor(INK)

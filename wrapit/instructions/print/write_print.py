@@ -38,7 +38,7 @@ from wrapit.pages.model import (
 # Paper in mm; margins that printers leave; between columns of steps.
 PAPERS: Final[dict[Paper, tuple[float, float]]] = {"A4": (210.0, 297.0), "letter": (215.9, 279.4)}
 MARGIN_MM, GUTTER_MM = 12.0, 5.0
-# Steps stand in so many columns: in two, they take half as many pages again.
+# Steps stand in so many columns: as wide as a sentence of theirs in two or three lines.
 COLUMNS: Final = 3
 # The most that pictures take of a page: the cover's and a jig's, and a step's in its column.
 LARGE_MM, STEP_MM = (120.0, 110.0), (57.0, 50.0)
@@ -106,7 +106,7 @@ class _Writer:
         }
 
     def story(self) -> Iterator[Any]:
-        """Cover, true size, pages to get ready, steps, strips."""
+        """Cover, pages to get ready, true size with strips, steps."""
         from reportlab.platypus import PageBreak
 
         guide = self.guide

@@ -186,6 +186,7 @@ glue-dry = Beschwer alles, bis der Leim trocken ist. Die Wände stehen nun { $he
 pegs-title = Das Brett mit Stiften bestücken
 pegs-how = Das Brett hat { $columns } Spalten und { $rows } Reihen von Löchern im Abstand von { $pitch }; die Spalten haben von links Buchstaben, die Reihen von unten Zahlen.
 pegs-file = Die Zeichnung ({ $files }) zeigt es in wahrer Größe: leg sie unter ein durchsichtiges Brett oder halt sie an deines.
+pegs-pair = Dies ist das Brett für einen der beiden Ohrringe. Für den anderen spiegle es: die Spalten haben ihre Buchstaben dann von rechts.
 pegs-picture = Das Brett mit seinen Stiften und den Drähten, die darum gebogen sind
 pegs-caption = Die Stifte stehen innen in den Biegungen; die farbigen Linien sind die Drähte.
 pegs-table = Stifte

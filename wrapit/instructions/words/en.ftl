@@ -187,6 +187,7 @@ glue-dry = Weigh it down until the glue is dry. The walls now stand { $height } 
 pegs-title = Set up the board with pegs
 pegs-how = The board has { $columns } columns and { $rows } rows of holes, { $pitch } apart; columns have letters from the left, rows numbers from below.
 pegs-file = The drawing ({ $files }) shows it at true size: lay it under a clear board, or hold it against yours.
+pegs-pair = This is the board for one of the pair. For the other, mirror it: columns then have their letters from the right.
 pegs-picture = The board with its pegs and the wires bent round them
 pegs-caption = The pegs stand inside the bends; the coloured lines are the wires.
 pegs-table = Pegs

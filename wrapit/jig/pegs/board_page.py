@@ -14,6 +14,7 @@ from wrapit.jig.made import GuidePage
 from wrapit.jig.pegs.model import PegPlan, hole_name
 from wrapit.pages.model import (
     Block,
+    Caution,
     Figure,
     Length,
     Paragraph,
@@ -33,13 +34,15 @@ from wrapit.wires.model import Turn
 HOLE_MM = 0.8
 
 
-def peg_page(plan: PegPlan, bench: Bench, files: Sequence[str]) -> GuidePage:
+def peg_page(plan: PegPlan, bench: Bench, files: Sequence[str], *, pair: bool) -> GuidePage:
     """What the guide says of this board; `files` are those of the drawing at true size."""
     board = plan.board
     how = text("pegs-how", columns=board.columns, rows=board.rows, pitch=Length(board.pitch_mm))
     blocks: list[Block] = [Paragraph(how)]
     if files:
         blocks.append(Paragraph(text("pegs-file", files=either(files))))
+    if pair:
+        blocks.append(Caution(text("pegs-pair")))
     blocks += [Figure(_picture(plan, bench), text("pegs-picture"), text("pegs-caption")), _table(plan)]
     if plan.unserved:
         blocks.append(Paragraph(text("pegs-unserved", turns=len(plan.unserved))))

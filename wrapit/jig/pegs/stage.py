@@ -36,7 +36,7 @@ def make(wires: Wires, config: Config) -> Made:
         drawings=(board_drawing(plan, wires),),
         views=(View("preview", wires, bench.walls, bench.plate),),
         handling=Handling((bench,)),
-        page=peg_page(plan, bench, [f"pegs.{kind}" for kind in kinds]),
+        page=peg_page(plan, bench, [f"pegs.{kind}" for kind in kinds], pair=config.pair),
     )
 
 
