@@ -76,7 +76,7 @@ def left_out(house: Path) -> Iterator[str]:
 # Rooms whose constants all say which question they answer, or what set them.
 EXPLAINED = (
     "config", "geometry", "drawing", "decomposition", "wires", "kernel", "jig", "exports", "instructions",
-    "pipeline", "cli",
+    "pipeline", "batch", "studio", "cli",
 )  # fmt: skip
 CONSTANT = re.compile(r"_?[A-Z][A-Z0-9_]+(?:, _?[A-Z][A-Z0-9_]+)*(?:: .*?)? = ")
 

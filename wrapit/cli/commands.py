@@ -5,58 +5,16 @@ from __future__ import annotations
 import json
 import os
 import shlex
-import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from wrapit import __version__
+from wrapit.cli.app import AsJson, ConfigPath, Overrides, Quiet, Verbose, app, show, with_progress
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
     from wrapit.pipeline.work import Stage
-
-app = typer.Typer(
-    name="wrapit",
-    add_completion=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    help="Turns a line drawing into wire-wrapped jewellery: wires, a jig that bends them, and the guide.",
-    epilog="Exit codes: 0 ok, 1 failure while building, 2 usage or config, "
-    "3 the drawing can't be made as asked.",
-)
-
-ConfigPath = Annotated[Path, typer.Argument(metavar="CONFIG", help="The piece's YAML config.")]
-Overrides = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Change one key, for example size='50 mm'."),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print the report as one JSON document.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
-Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Say more; -vv shows tracebacks.")]
-
-
-def say(line: str) -> None:
-    """One line for the person, on stderr."""
-    print(line, file=sys.stderr)
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        print(f"wrapit {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _options(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
-    ] = False,
-) -> None:
-    pass
 
 
 @app.command()
@@ -86,13 +44,13 @@ def build(
     from wrapit.pipeline.build import build as run
 
     stage = _stage(until)
-    result = _with_progress(
+    result = with_progress(
         lambda progress: run(config, output, overrides or (), stage, force, alternatives, progress),
         quiet or as_json,
     )
     if depfile is not None:
         _write_depfile(depfile, result)
-    _show(result, as_json, quiet, verbose)
+    show(result, as_json, quiet, verbose)
 
 
 def _write_depfile(path: Path, result: Build) -> None:
@@ -147,8 +105,8 @@ def check(
     """Say whether a piece can be made, and what to change; writes nothing."""
     from wrapit.pipeline.build import check as run
 
-    result = _with_progress(lambda progress: run(config, overrides or (), progress, exact), quiet or as_json)
-    _show(result, as_json, quiet, verbose)
+    result = with_progress(lambda progress: run(config, overrides or (), progress, exact), quiet or as_json)
+    show(result, as_json, quiet, verbose)
 
 
 @app.command()
@@ -207,30 +165,3 @@ def _stage(name: str) -> Stage:
         if stage == name:
             return stage
     raise typer.BadParameter(f"{name!r} is not one of {', '.join(STAGES)}", param_hint="--until")
-
-
-def _with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) -> Build:
-    if quiet or not sys.stderr.isatty():
-        return run(lambda stage: None)
-    from rich.console import Console
-
-    with Console(stderr=True).status("starting") as status:
-        return run(lambda stage: status.update(f"{stage} …"))
-
-
-def _show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
-    if as_json:
-        print(json.dumps({**result.report, "timings_s": result.timings_s}, allow_nan=False))
-        return
-    if quiet:
-        return
-    from wrapit.pipeline.summary import finding_lines, summary_lines
-
-    for line in summary_lines(result):
-        print(line)
-    sys.stdout.flush()
-    for line in finding_lines(result, every=verbose > 0):
-        say(line)
-    if verbose:
-        for stage, seconds in result.timings_s.items():
-            say(f"{stage:<14}{seconds:7.2f} s")

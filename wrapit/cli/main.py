@@ -12,7 +12,8 @@ import threading
 from types import FrameType
 from typing import NoReturn
 
-from wrapit.cli.commands import app, say
+import wrapit.cli.commands  # noqa: F401  registers what it holds
+from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 
 # What shells give a program that Ctrl-C ended: 128 + SIGINT.

@@ -15,7 +15,7 @@ from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renam
 from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
 from wrapit.pipeline.remedies import what_would_do
 from wrapit.pipeline.stages import run_stages
-from wrapit.pipeline.work import STAGES, Progress, Stage, Work
+from wrapit.pipeline.work import STAGES, AfterStage, Progress, Stage, Work
 
 
 @dataclass(frozen=True)
@@ -42,15 +42,17 @@ def build(
     force: bool = False,
     alternatives: int = 0,
     progress: Progress = lambda stage: None,
+    after: AfterStage = lambda stage, work: None,
 ) -> Build:
     """Builds a piece into `target` (default `build/<name>`), unless what is there is already the same.
 
-    With `alternatives`, so many of the best decompositions are also drawn side by side. A folder that holds
+    `progress` is told before each stage, `after` after it. With `alternatives`, so many of the best decompositions are also drawn side by side. A folder that holds
     a fuller build of the same input keeps it. Files of somebody else stay as they are.
 
     Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
     """
     work = _start(config_path, overrides, until, progress, alternatives)
+    work.after = after
     sources = (config_path, work.drawing_path)
     target = target if target is not None else Path("build") / work.config.name
     folder = followed(target)

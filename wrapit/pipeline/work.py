@@ -20,6 +20,8 @@ Stage = Literal["drawing", "decomposition", "wires", "jig", "exports"]
 # In the order in which they run.
 STAGES: Final[tuple[Stage, ...]] = get_args(Stage)
 Progress = Callable[[str], None]
+AfterStage = Callable[[str, "Work"], None]
+"""Told after each stage: its name, and what there is by then."""
 
 
 @dataclass
@@ -34,6 +36,7 @@ class Work:
     exact: bool = False
     """Whether solids are judged once more, by the kernel's booleans."""
 
+    after: AfterStage = lambda stage, work: None
     timings_s: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     drawing: Drawing | None = None
@@ -53,6 +56,7 @@ class Work:
         start = time.perf_counter()
         yield
         self.timings_s[name] = round(time.perf_counter() - start, 4)
+        self.after(name, self)
 
     def reaches(self, stage: Stage) -> bool:
         return STAGES.index(self.until) >= STAGES.index(stage)

@@ -1,0 +1,1 @@
+"""Many pieces at once; see README.md."""
