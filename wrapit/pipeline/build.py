@@ -46,8 +46,9 @@ def build(
 ) -> Build:
     """Builds a piece into `target` (default `build/<name>`), unless what is there is already the same.
 
-    `progress` is told before each stage, `after` after it. With `alternatives`, so many of the best decompositions are also drawn side by side. A folder that holds
-    a fuller build of the same input keeps it. Files of somebody else stay as they are.
+    `progress` is told before each stage, `after` after it. With `alternatives`, so many of the best
+    decompositions are also drawn side by side. A folder that holds a fuller build of the same input keeps it.
+    Files of somebody else stay as they are.
 
     Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
     """
