@@ -1,0 +1,186 @@
+// The page: shows the studio's state, and sends what is clicked back. The config is the one truth.
+
+import { canvas } from "./canvas.js";
+import { chosen, wishes } from "./choosing.js";
+import { controls } from "./controls.js";
+import { html } from "./elements.js";
+import * as panels from "./panels.js";
+import * as server from "./server.js";
+
+const TABS = { wires: "Wires", jig: "Jig", guide: "Guide", ways: "Ways to divide it", text: "Text", files: "Files" };
+const LAYERS = { wires: "wires", read: "what was read", numbers: "numbers", picture: "the picture" };
+
+const at = (id) => document.getElementById(id);
+const view = { tab: "wires", selected: { segments: [], junction: null }, finding: null, layers: { wires: true, read: false, numbers: false, picture: false } };
+let state = null;
+let picture = null;
+
+function showTab(name) {
+  view.tab = name;
+  for (const each of Object.keys(TABS)) {
+    at(`tab-${each}`).setAttribute("aria-selected", String(each === name));
+    at(`tab-${each}`).tabIndex = each === name ? 0 : -1;
+    at(`view-${each}`).hidden = each !== name;
+  }
+}
+
+function makeTabs() {
+  const names = Object.keys(TABS);
+  const turned = (event) => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    showTab(names[(names.indexOf(view.tab) + step + names.length) % names.length]);
+    at(`tab-${view.tab}`).focus();
+  };
+  at("tabs").append(
+    ...names.map((name) => html("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}`, onclick: () => showTab(name), onkeydown: turned }, TABS[name])),
+  );
+  at("layers").append(
+    "Show: ",
+    ...Object.entries(LAYERS).map(([key, label]) => {
+      const toggled = (event) => {
+        view.layers[key] = event.target.checked;
+        showPicture();
+      };
+      return html("label", {}, html("input", { type: "checkbox", id: `layer-${key}`, checked: view.layers[key], onchange: toggled }), ` ${label}`);
+    }),
+  );
+  showTab("wires");
+}
+
+const pick = {
+  segment(index) {
+    const { segments } = view.selected;
+    const kept = segments.includes(index) ? segments.filter((each) => each !== index) : [...segments, index].slice(-2);
+    view.selected = { segments: kept, junction: null };
+    showPicture();
+  },
+  junction(index) {
+    view.selected = { segments: [], junction: view.selected.junction === index ? null : index };
+    showPicture();
+  },
+  finding(index) {
+    view.finding = index;
+    showFindings();
+    at(`finding-${index}`).scrollIntoView({ block: "nearest" });
+  },
+};
+
+function locate(index) {
+  view.finding = index;
+  showTab("wires");
+  showPicture();
+  document.querySelector(`#canvas [data-finding="${index}"]`)?.focus();
+  showFindings();
+}
+
+/** What has the keyboard keeps it when the picture is drawn anew. */
+function focused() {
+  const element = document.activeElement;
+  const key = ["segment", "junction", "finding"].find((each) => element?.dataset?.[each] !== undefined);
+  return key && at("canvas").contains(element) ? `#canvas [data-${key}="${element.dataset[key]}"]` : null;
+}
+
+function showPicture() {
+  if (!state) return;
+  const { drawing } = state.shown;
+  const known = (index, all) => all && index < all.length;
+  view.selected.segments = view.selected.segments.filter((each) => known(each, drawing?.segments));
+  if (view.selected.junction !== null && !known(view.selected.junction, drawing?.junctions)) view.selected.junction = null;
+  const again = focused();
+  at("canvas").replaceChildren(canvas(state, view.selected, view.layers, picture, pick));
+  at("canvas").classList.toggle("stale", !state.fresh);
+  if (again) document.querySelector(again)?.focus();
+  at("layer-picture").closest("label").hidden = !drawing?.pixel_frame;
+  at("chosen").replaceChildren(...chosen(state, view.selected, act).filter(Boolean));
+}
+
+const showFindings = () => at("findings").replaceChildren(...panels.findings(state, view.finding, locate, act));
+
+function statusText() {
+  const { building } = state;
+  if (building) return `Making: ${building.stage} …`;
+  if (state.problem) return "The last good state is shown.";
+  const total = Object.values(state.shown.timings_s ?? {}).filter((each) => typeof each === "number").reduce((sum, each) => sum + each, 0);
+  return state.fresh ? `All made${total ? ` in ${total.toFixed(1)} s` : ""}.` : "Waiting …";
+}
+
+function show() {
+  document.title = `${state.name} – wrapit studio`;
+  at("name").textContent = state.name;
+  at("status").textContent = statusText();
+  const progress = at("progress");
+  progress.hidden = !state.building;
+  if (state.building) Object.assign(progress, { max: state.building.stages.length, value: state.building.done.length });
+  at("undo").disabled = !state.can_undo;
+  at("redo").disabled = !state.can_redo;
+  at("problem").hidden = !state.problem;
+  at("problem").replaceChildren(...panels.problem(state, act).filter(Boolean));
+  controls(at("settings"), state, act);
+  showPicture();
+  at("wishes").replaceChildren(...wishes(state, act));
+  at("numbers").replaceChildren(...panels.numbers(state));
+  showFindings();
+  panels.jig(at("view-jig"), state);
+  panels.guide(at("view-guide"), state);
+  panels.ways(at("view-ways"), state, ask, act);
+  panels.text(at("view-text"), state, server.saveText);
+  panels.files(at("view-files"), state);
+}
+
+/** Sends a change; where it is refused the page says why, unless the control that sent it does (quiet). */
+async function act(wanted, { quiet = false } = {}) {
+  const told = await server.change(wanted);
+  if (!quiet) complain(told.error);
+  return told;
+}
+
+async function ask(count) {
+  complain((await server.showWays(count)).error);
+}
+
+function complain(error) {
+  if (!error) return;
+  at("problem").hidden = false;
+  at("problem").replaceChildren(...panels.problem({ problem: error }, act).filter(Boolean));
+}
+
+let waiting = false;
+let again = false;
+async function refresh() {
+  if (waiting) {
+    again = true;
+    return;
+  }
+  waiting = true;
+  const newest = await server.state();
+  waiting = false;
+  if (newest && (!state || newest.revision >= state.revision)) {
+    state = newest;
+    show();
+  }
+  if (again) {
+    again = false;
+    refresh();
+  }
+}
+
+function lost() {
+  at("status").textContent = "The studio doesn't answer: is it still running?";
+}
+
+makeTabs();
+at("undo").addEventListener("click", async () => complain((await server.undo()).error));
+at("redo").addEventListener("click", async () => complain((await server.redo()).error));
+document.addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.closest("input, textarea, select")) return;
+  event.preventDefault();
+  (event.shiftKey ? server.redo() : server.undo()).then(({ error }) => complain(error));
+});
+const loaded = new Image();
+loaded.onload = () => {
+  picture = loaded;
+  showPicture();
+};
+loaded.src = "/drawing";
+server.follow(refresh, lost);
