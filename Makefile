@@ -10,14 +10,15 @@ READY := $(VENV)/.ready
 # build/NAME for each config; a space in a name (and what else make would stumble upon) gets its backslash.
 PIECES := $(shell for each in configs/*.yaml; do [ ! -e "$$each" ] || echo "$$each"; done \
   | sed -e 's|^configs/\(.*\)\.yaml$$|build/\1|' -e 's/[[ |;:*?]/\\&/g')
-SOURCES := $(shell find wrapit -name '*.py' -o -name '*.jinja' -o -name '*.css' -o -name '*.js' -o -name '*.ftl')
+SOURCES := $(shell find wrapit -name '*.py' -o -name '*.jinja' -o -name '*.css' -o -name '*.js' -o -name '*.ftl' \
+  -o -name '*.html' -o -name '*.yaml')
 JOBS ?= auto
 # A word as the shell reads it: in quotes.
 quoted = '$(subst ','\'',$(1))'
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo all check format lint types imports test golden bench docs clean FORCE
+.PHONY: help setup demo all check format lint types imports test golden pictures bench docs clean FORCE
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z%\/-]+:.*## / {printf "  %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -78,6 +79,9 @@ test: $(READY) ## the whole test suite
 
 golden: $(READY) ## write the golden numbers anew, to be looked at before they are committed
 	$(BIN)/python -m tests.golden
+
+pictures: $(READY) ## make the README's pictures anew
+	$(BIN)/python examples/pictures.py
 
 bench: $(READY) ## measure accuracy and speed
 	$(BIN)/python -m tests.bench
