@@ -62,5 +62,6 @@ if __name__ == "__main__":
         settings = load_config(CONFIGS / f"{piece}.yaml")
         with tempfile.TemporaryDirectory() as elsewhere:
             taken = take(settings, piece, target if piece == "butterfly" else Path(elsewhere))
-            row([ink_of(piece), taken[0], taken[2]]).quantize(128).save(target / f"{piece}.png", optimize=True)
+            picture = row([ink_of(piece), taken[0], taken[2]]).quantize(128)
+        picture.save(target / f"{piece}.png", optimize=True)
         print(target / f"{piece}.png")
