@@ -48,6 +48,14 @@ function source(drawing, picture) {
   });
 }
 
+/** A place for a mark: where it belongs, or above the marks that are there already. */
+function free([x, y], taken, room) {
+  const hidden = (height) => taken.some(([a, b]) => Math.hypot(a - x, b - height) < 0.95 * room);
+  while (hidden(y)) y += room;
+  taken.push([x, y]);
+  return [x, y];
+}
+
 /**
  * The picture of a state. `selected` is {segments: [..], junction: n | null}; `layers` says what else is
  * seen; `pick` is told of clicks: pick.segment(n), pick.junction(n), pick.finding(n).
@@ -98,14 +106,17 @@ export function canvas(state, selected, layers, picture, pick) {
       }),
     );
   });
-  if (layers.numbers)
+  const asked = new Set([...selected.segments, ...(ends[selected.junction] ?? []).map(([segment]) => segment)]);
+  if (layers.numbers || asked.size)
     drawing.segments.forEach((each, index) => {
+      if (!layers.numbers && !asked.has(index)) return;
       const [x, y] = middle(each.beziers);
       children.push(svg("text", { class: "number", x, y: -y, "font-size": 2 * unit, "stroke-width": unit / 2 }, String(index)));
     });
+  const taken = [];
   state.findings.forEach((finding, index) => {
     if (!finding.at) return;
-    const [x, y] = finding.at;
+    const [x, y] = free(finding.at, taken, 2.4 * unit);
     children.push(
       svg("path", {
         class: `mark ${finding.level}`,

@@ -1,6 +1,6 @@
 // The settings: one control for each key of the config that matters, in groups.
 
-import { html } from "./elements.js";
+import { html, prose } from "./elements.js";
 
 const GROUPS = { piece: "The piece", wire: "Wire", wires: "How it is divided", jig: "Printed jig", laser: "Laser-cut jig", guide: "Guide", files: "Files" };
 const OPEN = ["piece", "wire"];
@@ -39,10 +39,10 @@ function made(each, act) {
   const given = html("button", { type: "button", class: "plain reset", onclick: () => act({ unset: [each.key] }), "aria-label": `${each.label}: back to ${each.default ?? "none"}` }, "Reset");
   return html(
     "div",
-    { class: "control", id: `control-${id}` },
+    { class: `control ${each.kind}`, id: `control-${id}` },
     each.kind === "choices" ? null : html("label", { for: id }, each.label),
     html("div", { class: "row" }, field(each, id, act), given),
-    html("p", { class: "help", id: `${id}-help` }, each.help),
+    html("p", { class: "help", id: `${id}-help` }, ...prose(each.help)),
     html("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true }),
   );
 }
@@ -82,4 +82,8 @@ export function controls(place, state, act) {
     );
   }
   state.controls.forEach(shown);
+  // What belongs to a block that is switched off would do nothing.
+  const off = state.controls.filter((each) => each.kind === "switch" && !each.value).map((each) => `${each.key}.`);
+  for (const each of state.controls)
+    document.getElementById(`control-${each.key.replaceAll(".", "-")}`).hidden = off.some((key) => each.key.startsWith(key));
 }

@@ -23,6 +23,11 @@ export function svg(tag, properties = {}, ...children) {
   return made(document.createElementNS(SVG, tag), properties, children);
 }
 
+/** Text in which what stands between backticks is code. */
+export function prose(text) {
+  return text.split("`").map((part, index) => (index % 2 ? html("code", {}, part) : part));
+}
+
 /** Lets what is clicked be pressed with Enter and the space bar too. */
 export function pressable(label, action) {
   return {

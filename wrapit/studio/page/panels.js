@@ -1,10 +1,10 @@
 // Everything around the picture: findings, numbers, jig, guide, ways to divide it, the text, the files.
 
 import { thumbnail } from "./canvas.js";
-import { html } from "./elements.js";
+import { html, prose } from "./elements.js";
 import { fileAddress } from "./server.js";
 
-const error = ({ problem, where, remedy }) => [html("p", {}, html("strong", {}, problem)), where ? html("p", { class: "soft" }, where) : null, remedy ? html("p", {}, remedy) : null];
+const error = ({ problem, where, remedy }) => [html("p", {}, html("strong", {}, problem)), where ? html("p", { class: "soft" }, where) : null, remedy ? html("p", {}, ...prose(remedy)) : null];
 
 const fixes = (finding, act) =>
   (finding.fixes ?? []).length ? html("p", { class: "buttons" }, ...finding.fixes.map((fix) => html("button", { type: "button", onclick: () => act(fix.change) }, fix.label))) : null;
@@ -14,22 +14,39 @@ export function problem(state, act) {
   return state.problem ? [...error(state.problem), fixes(state.problem, act)] : [];
 }
 
-/** What the maker should know, each with its remedy; a click shows its place. */
+function place(each, index, current, locate) {
+  const name = `${index + 1} · ${each.where}`;
+  const where = each.at ? html("button", { type: "button", class: "plain", onclick: () => locate(index) }, name) : html("span", {}, name);
+  return html("li", { id: `finding-${index}`, class: current === index ? "shown" : null }, where, html("span", {}, ...prose(each.message)));
+}
+
+/** Findings of one kind, each with its place and words, their remedy said once. */
+function kind(group, current, locate, act) {
+  const [[first]] = group;
+  return html(
+    "div",
+    { class: `finding ${first.level}` },
+    html("strong", {}, first.level),
+    html("ul", { class: "places" }, ...group.map(([each, index]) => place(each, index, current, locate))),
+    first.remedy ? html("p", { class: "soft" }, ...prose(first.remedy)) : null,
+    fixes(first, act),
+  );
+}
+
+/** What the maker should know, each with its remedy; errors first, notes folded away. A click shows its place. */
 export function findings(state, current, locate, act) {
   if (!state.shown.drawing) return [];
   if (!state.findings.length) return [html("h2", {}, "Findings"), html("p", { class: "soft" }, "None: nothing stands in the way.")];
-  const items = state.findings.map((each, index) =>
-    html(
-      "div",
-      { class: `finding ${each.level}${current === index ? " shown" : ""}`, id: `finding-${index}` },
-      html("p", {}, html("strong", {}, `${index + 1} ${each.level}`), ` · ${each.where}`),
-      html("p", {}, each.message),
-      each.remedy ? html("p", { class: "soft" }, each.remedy) : null,
-      html("p", { class: "buttons" }, ...(each.at ? [html("button", { type: "button", class: "plain", onclick: () => locate(index) }, "Show where")] : [])),
-      fixes(each, act),
-    ),
-  );
-  return [html("h2", {}, `Findings (${state.findings.length})`), ...items];
+  const groups = new Map();
+  state.findings.forEach((each, index) => {
+    const key = JSON.stringify([each.level, each.code, each.remedy]);
+    groups.set(key, [...(groups.get(key) ?? []), [each, index]]);
+  });
+  const of = (level) => [...groups.values()].filter(([[first]]) => first.level === level).map((group) => kind(group, current, locate, act));
+  const notes = state.findings.filter((each) => each.level === "note").length;
+  const open = document.getElementById("notes")?.open || state.findings[current]?.level === "note";
+  const folded = html("details", { id: "notes", open }, html("summary", {}, `${notes} note${notes === 1 ? "" : "s"}`), ...of("note"));
+  return [html("h2", {}, `Findings (${state.findings.length})`), ...of("error"), ...of("warning"), notes ? folded : ""];
 }
 
 const mm = (value) => `${Math.round(value)} mm`;

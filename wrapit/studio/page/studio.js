@@ -117,6 +117,7 @@ function show() {
   at("problem").hidden = !state.problem;
   at("problem").replaceChildren(...panels.problem(state, act).filter(Boolean));
   controls(at("settings"), state, act);
+  loadPicture();
   showPicture();
   at("wishes").replaceChildren(...wishes(state, act));
   at("numbers").replaceChildren(...panels.numbers(state));
@@ -143,6 +144,20 @@ function complain(error) {
   if (!error) return;
   at("problem").hidden = false;
   at("problem").replaceChildren(...panels.problem({ problem: error }, act).filter(Boolean));
+}
+
+let shownPicture = null;
+/** The drawing itself, to lay beneath what was read of it; fetched anew when that changed. */
+function loadPicture() {
+  const key = JSON.stringify([state.shown.report?.drawing_sha256, state.shown.drawing?.pixel_frame]);
+  if (!state.shown.drawing?.pixel_frame || shownPicture === key) return;
+  shownPicture = key;
+  const loaded = new Image();
+  loaded.onload = () => {
+    picture = loaded;
+    if (view.layers.picture) showPicture();
+  };
+  loaded.src = `/drawing?v=${encodeURIComponent(key)}`;
 }
 
 let waiting = false;
@@ -177,10 +192,4 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   (event.shiftKey ? server.redo() : server.undo()).then(({ error }) => complain(error));
 });
-const loaded = new Image();
-loaded.onload = () => {
-  picture = loaded;
-  showPicture();
-};
-loaded.src = "/drawing";
 server.follow(refresh, lost);
