@@ -40,6 +40,7 @@ class Bench:
         self._connection: Connection | None = None
         self._busy = False
         self._number = 0
+        self._leaving: list[threading.Thread] = []
 
     @property
     def is_busy(self) -> bool:
@@ -71,16 +72,19 @@ class Bench:
             self._connection.send((name, arguments))
 
     def stop(self) -> None:
-        """Ends the process and what it started; returns when they are gone."""
+        """Ends the process and what it started, in the background: the next order needn't wait for that."""
         process, self._process, self._busy = self._process, None, False
-        self._number += 1  # what it still said is of no interest
-        if process is None:
-            return
-        process.terminate()
-        process.join(LEAVE_S)
-        if process.is_alive():
-            process.kill()
-            process.join()
+        self._number += 1  # what it still says is of no interest
+        if process is not None:
+            self._leaving = [each for each in self._leaving if each.is_alive()]
+            self._leaving.append(threading.Thread(target=_end, args=(process,)))
+            self._leaving[-1].start()
+
+    def end(self) -> None:
+        """Stops, and returns when all processes are gone."""
+        self.stop()
+        for each in self._leaving:
+            each.join()
 
     def _listen(
         self, connection: Connection, number: int, process: Any, loop: asyncio.AbstractEventLoop
@@ -116,6 +120,14 @@ class Bench:
 def told(error: WrapItError) -> dict[str, str]:
     """A mistake as the page gets it."""
     return {"code": error.code, "problem": error.problem, "where": error.where, "remedy": error.remedy}
+
+
+def _end(process: Any) -> None:
+    process.terminate()
+    process.join(LEAVE_S)
+    if process.is_alive():
+        process.kill()
+        process.join()
 
 
 def _serve(connection: Connection) -> None:

@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from wrapit.config import Config
 from wrapit.config.reading import read_yaml
 from wrapit.errors import ConfigError
+from wrapit.studio.values import plain
 
 _PLAIN: Final = re.compile(r"[A-Za-z0-9](?:[\w ./+-]*[\w./+-])?")
 """Texts that mean themselves wherever they stand, unless they read as a number or truth value."""
@@ -39,7 +40,9 @@ def replaced(text: str, keys: Sequence[str], value: Any) -> str:
             return _exchanged(text, inner, value)
         if _is_nothing(inner):
             indent = _column(text, pair[0].start_mark.index) + _INDENT
-            return _with_lines(text, _after_line(text, _end(pair[0])), _lines(keys[depth + 1 :], value, indent))
+            return _with_lines(
+                text, _after_line(text, _end(pair[0])), _lines(keys[depth + 1 :], value, indent)
+            )
         node = inner
     raise ValueError("no keys")
 
@@ -216,8 +219,6 @@ def _end(node: Any) -> int:
 
 
 def _value(text: str, node: Any) -> Any:
-    from wrapit.studio.editing import plain
-
     return plain(read_yaml(_dedented(text, node), ""))
 
 
