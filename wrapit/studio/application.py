@@ -16,7 +16,7 @@ from starlette.types import ASGIApp
 from wrapit.errors import ConfigError
 from wrapit.studio.guard import Door, Guard
 from wrapit.studio.serving import built_file, drawing_file, not_there, page_file
-from wrapit.studio.session import Refused, Session
+from wrapit.studio.session import RefusedError, Session
 
 LARGEST_BODY: Final = 1_500_000
 """Bytes of a request: a config of 200 kB in which JSON writes each letter as six, and some."""
@@ -88,7 +88,7 @@ def _post(path: str, act: Callable[[Any], int], status: int = 200) -> Route:
     async def answer(request: Request) -> Response:
         try:
             return JSONResponse({"revision": act(await _document(request))}, status)
-        except Refused as refused:
+        except RefusedError as refused:
             return JSONResponse({"error": refused.error}, refused.status)
 
     return Route(path, answer, methods=["POST"])
@@ -100,22 +100,22 @@ async def _document(request: Request) -> Any:
         body += part
         if len(body) > LARGEST_BODY:
             problem = f"this is more than {LARGEST_BODY // 1000} kB"
-            raise Refused(413, ConfigError(problem, "request", "the drawing is a file of its own"))
+            raise RefusedError(413, ConfigError(problem, "request", "the drawing is a file of its own"))
     try:
         return json.loads(body)
     except (ValueError, RecursionError):
-        raise Refused(400, ConfigError("this is no JSON", "request", "send one document")) from None
+        raise RefusedError(400, ConfigError("this is no JSON", "request", "send one document")) from None
 
 
 def _text(body: Any) -> tuple[str, str]:
     text, base = (body.get("text"), body.get("base")) if isinstance(body, dict) else (None, None)
     if not isinstance(text, str) or not isinstance(base, str):
-        raise Refused(422, ConfigError("a text and its base are asked for", "request", "send both"))
+        raise RefusedError(422, ConfigError("a text and its base are asked for", "request", "send both"))
     return text, base
 
 
 def _count(body: Any) -> int:
     count = body.get("count", 4) if isinstance(body, dict) else None
     if isinstance(count, bool) or not isinstance(count, int):
-        raise Refused(422, ConfigError("a count is a whole number", "count", "send for example 4"))
+        raise RefusedError(422, ConfigError("a count is a whole number", "count", "send for example 4"))
     return count

@@ -1,6 +1,7 @@
 """A process beside the server that takes one order at a time, can be stopped, and is kept warm in between.
 
-It is no daemon in Python's sense, for a build starts the kernel's process; it ends with its parent all the same.
+It is no daemon in Python's sense, for a build starts the kernel's process; it ends with its parent all the
+same.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ Message = dict[str, Any]
 
 
 class Bench:
-    """Runs orders in a process; `tell` gets each message, in the event loop, and never one of a stopped order.
+    """Runs orders in a process; `tell` gets each message in the event loop, none of a stopped order.
 
     The last message of an order is `{"ended": None}` or `{"ended": {...}}` with what went wrong.
     """

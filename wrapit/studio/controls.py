@@ -1,4 +1,4 @@
-"""What the page offers to change, one control a key; everything about a key comes from the config's models."""
+"""What the page offers to change, a control for each key; all it says comes from the config's models."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 from wrapit.config import Config
 from wrapit.config.quantities import PlaceRange
 from wrapit.config.ranges import Mark, NumberRange, QuantityRange
-from wrapit.studio.values import value_at
+from wrapit.studio.text.values import value_at
 
 CONTROLS: Final = (
     ("piece", "size", "Size"),
@@ -122,28 +122,32 @@ def _place(text: str) -> Any:
 
 def _about(field: FieldInfo) -> dict[str, Any]:
     """Kind, default and range of a field."""
-    mark, default = _mark(field), field.default
-    optional = type(None) in get_args(field.annotation)
+    mark, annotation = _mark(field), field.annotation
     if _block(field) is not None:
         return {"kind": "switch", "default": False}
+    if mark is not None:
+        return _about_mark(mark, field.default, optional=type(None) in get_args(annotation))
+    if annotation is bool:
+        return {"kind": "switch", "default": field.default}
+    if get_origin(annotation) is tuple:
+        choices = _choices(get_args(annotation)[0])
+        return {"kind": "choices", "default": list(field.default), "choices": choices}
+    choices = _choices(annotation)
+    return {"kind": "choice" if choices else "text", "default": field.default, "choices": choices}
+
+
+def _about_mark(mark: Mark, default: Any, *, optional: bool) -> dict[str, Any]:
     if isinstance(mark, NumberRange):
         step = {"step": 1} if mark.type == "integer" else {}
         return {"kind": "number", "default": default, "min": mark.at_least, "max": mark.at_most, **step}
     if isinstance(mark, QuantityRange):
-        example = mark.check(mark.example) == default
-        written = default if default is None else mark.example if example else mark.write(default)
+        is_example = default is None or mark.check(mark.example) == default
+        written = mark.example if is_example else mark.write(default)
         low, high = mark.texts
         kind = "optional-text" if optional else "text"
-        return {"kind": kind, "default": written, "min": low, "max": high, "example": mark.example}
-    if mark is not None:
-        return {"kind": "text", "default": mark.write(default)}
-    if field.annotation is bool:
-        return {"kind": "switch", "default": default}
-    many = get_origin(field.annotation) is tuple
-    choices = _choices(get_args(field.annotation)[0] if many else field.annotation)
-    if many:
-        return {"kind": "choices", "default": list(default), "choices": choices}
-    return {"kind": "choice" if choices else "text", "default": default, "choices": choices}
+        shown = None if default is None else written
+        return {"kind": kind, "default": shown, "min": low, "max": high, "example": mark.example}
+    return {"kind": "text", "default": mark.write(default)}
 
 
 def _choices(annotation: Any) -> list[str]:

@@ -16,7 +16,7 @@ from wrapit.config import Config
 from wrapit.config.reading import read_yaml
 from wrapit.errors import ConfigError
 from wrapit.studio.controls import field_at
-from wrapit.studio.values import plain, value_at, with_value, without_value
+from wrapit.studio.text.values import plain, value_at, with_value, without_value
 from wrapit.units import awg_diameter_mm
 
 SIZES_MM: Final = (*range(20, 60, 5), *range(60, 160, 10), *range(160, 320, 20), *range(350, 1001, 50))
@@ -40,8 +40,8 @@ Fix = dict[str, Any]
 def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None) -> list[Fix]:
     """What to offer as buttons: a label and the change that it makes; the config `data` takes each.
 
-    `where` is the place of a mistake in a config, whose key the remedy is about; `size_mm` is the piece's size
-    where the config doesn't say it.
+    `where` is the place of a mistake in a config, whose key the remedy is about; `size_mm` is the piece's
+    size where the config doesn't say it.
 
     >>> data = {"drawing": "bee.png", "size": "63 mm"}
     >>> for fix in fixes("make the piece larger, or set jig.split to per-wire", "wire-01", data):

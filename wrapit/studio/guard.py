@@ -1,8 +1,8 @@
 """Who may ask: a page of ours in a browser on this machine, and nobody else.
 
-Any page on the web can send requests to this machine, and a name of somebody else's can be made to mean it (DNS
-rebinding). So each request names us as its host, comes from our own page if it says where it comes from, and
-knows the token, which the link hands to the browser once and the browser keeps in a cookie for this port.
+Any page on the web can send requests to this machine, and a name of somebody else's can be made to mean it
+(DNS rebinding). So each request names us as its host, comes from our own page if it says where it comes
+from, and knows the token, which the link hands to the browser once and the browser keeps in a cookie.
 """
 
 from __future__ import annotations

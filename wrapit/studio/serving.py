@@ -34,7 +34,7 @@ _ALONE: Final = (
 )
 """What a picture may do that somebody else drew: be looked at."""
 _POLICIES: Final = {
-    # The guide's few lines of script are its own; it runs as a page of nobody's and can't ask us for anything.
+    # The guide's few lines of script are its own; it runs as nobody's page and can't ask us for anything.
     ".html": (
         "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
         "frame-ancestors 'self'; sandbox allow-scripts allow-modals"

@@ -4,34 +4,31 @@ from __future__ import annotations
 
 import asyncio
 import functools
-import hashlib
-import json
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from wrapit.errors import ConfigError, WrapItError
-from wrapit.studio.bench import Bench, Message, told
-from wrapit.studio.config_file import Judged, content_of, judged, text_of, write
+from wrapit.studio.bench import Message, told
+from wrapit.studio.building import Building, signature
 from wrapit.studio.controls import constraint_entries, controls, from_page
-from wrapit.studio.editing import Change, change_from, edited
 from wrapit.studio.fixes import fixes
-from wrapit.studio.history import History
-from wrapit.studio.values import BOM
+from wrapit.studio.text.config_file import Judged, content_of, judged, text_of, write
+from wrapit.studio.text.editing import Change, change_from, edited
+from wrapit.studio.text.history import History
+from wrapit.studio.text.values import BOM
 
 WATCH_S: Final = 0.25
 """Between two looks at the files: at once for a person, nothing for a disk, even over a network."""
 SETTLE_S: Final = 0.05
 """Between two readings that have to agree before an editor's change is taken: some write in two steps."""
-GATHER_S: Final = 0.1
-"""Changes so near to each other are built together, as while a slider is drawn."""
 ALIVE_S: Final = 15.0
 """Between signs of life on a line of events, so that nobody between takes it for dead."""
 MOST_ALTERNATIVES: Final = 12
 """As many as `wrapit build --alternatives` takes."""
 
 
-class Refused(Exception):
+class RefusedError(Exception):
     """A request that can't be done; `status` is HTTP's, `error` what the page shows."""
 
     def __init__(self, status: int, error: WrapItError) -> None:
@@ -44,25 +41,13 @@ class Session:
 
     def __init__(self, path: Path, output: Path | None) -> None:
         self.path = path.absolute()
-        self._output = output.absolute() if output is not None else None
         self._judge = functools.lru_cache(maxsize=64)(lambda content: judged(content, self.path))
         self._now: Judged = self._judge(content_of(self.path))
         self._history = History(self._now.content, lambda content: self._judge(content).config is not None)
         self._revision = 1
         self._waiting: set[asyncio.Event] = set()
         self._ended = False
-        self._problem: Message | None = None
-        self._building: Message | None = None
-        self._fresh = False
-        self._shown: Message = {"drawing": None, "wires": [], "energy": None, "optimal": None}
-        self._shown |= {"report": None, "files": {}, "stage": None, "timings_s": {}}
-        self._findings: list[Message] = []
-        self._alternatives: Any = None
-        self._alternatives_of = ""
-        self.folder: Path | None = None
-        self._builder = Bench(self._hear)
-        self._chooser = Bench(self._hear_alternatives)
-        self._soon: asyncio.TimerHandle | None = None
+        self._building = Building(self.path, output and output.absolute(), self._bump)
         self._watching: asyncio.Task[None] | None = None
 
     # Begin and end
@@ -82,19 +67,15 @@ class Session:
         self.leave()
         if self._watching is not None:
             self._watching.cancel()
-        if self._soon is not None:
-            self._soon.cancel()
-        self._builder.end()
-        self._chooser.end()
+        self._building.end()
 
     # What the page sees
 
     def state(self) -> Message:
         """All that the page shows."""
-        now, data = self._now, self._now.data
-        size = ((self._shown["report"] or {}).get("drawing") or {}).get("size_mm")
-        buttons = functools.partial(fixes, data=data, size_mm=max(size) if size else None)
-        problem = told(now.problem) if now.problem is not None else self._problem
+        now, data, building = self._now, self._now.data, self._building
+        buttons = functools.partial(fixes, data=data, size_mm=building.size_mm)
+        problem = told(now.problem) if now.problem is not None else building.problem
         return {
             "revision": self._revision,
             "name": now.config.name if now.config is not None else self.path.stem,
@@ -102,15 +83,17 @@ class Session:
             "text": now.text,
             "text_sha256": now.sha256,
             "problem": problem and problem | {"fixes": buttons(problem["remedy"], problem["where"])},
-            "building": self._building,
-            "fresh": self._fresh,
+            "building": building.progress,
+            "fresh": building.fresh,
             "can_undo": self._history.before() is not None,
             "can_redo": self._history.after() is not None,
             "controls": controls(data),
             "constraints": constraint_entries(data),
-            "shown": self._shown,
-            "findings": [each | {"fixes": buttons(each["remedy"], each["where"])} for each in self._findings],
-            "alternatives": self._alternatives,
+            "shown": building.shown,
+            "findings": [
+                each | {"fixes": buttons(each["remedy"], each["where"])} for each in building.findings
+            ],
+            "alternatives": building.alternatives,
         }
 
     async def revisions(self) -> AsyncIterator[int | None]:
@@ -136,11 +119,16 @@ class Session:
         return self.path.parent / self._now.config.drawing if self._now.config is not None else None
 
     @property
+    def folder(self) -> Path | None:
+        """Where the last good build is."""
+        return self._building.folder
+
+    @property
     def files(self) -> dict[str, str]:
         """Names of the files of the last good build."""
-        return dict(self._shown["files"])
+        return dict(self._building.shown["files"])
 
-    # What the page asks for; each raises Refused
+    # What the page asks for; each raises RefusedError
 
     def change(self, document: object) -> int:
         """Applies a change to the text as it is now on the disk."""
@@ -160,7 +148,9 @@ class Session:
         def replaced(old: str) -> str:
             if self._now.sha256 != base:
                 problem = "the file has been changed meanwhile"
-                raise Refused(409, ConfigError(problem, self.path.name, "look at it, and change it again"))
+                raise RefusedError(
+                    409, ConfigError(problem, self.path.name, "look at it, and change it again")
+                )
             new = text.removeprefix(BOM)
             if "\r\n" in old and "\r" not in new:  # pages know no other line ends than \n
                 new = new.replace("\n", "\r\n")
@@ -180,13 +170,13 @@ class Session:
         """Begins to look for so many of the best ways to divide the drawing."""
         if not 1 <= count <= MOST_ALTERNATIVES:
             remedy = f"choose between 1 and {MOST_ALTERNATIVES}"
-            raise Refused(422, ConfigError(f"{count} alternatives can't be shown", "count", remedy))
+            raise RefusedError(422, ConfigError(f"{count} alternatives can't be shown", "count", remedy))
         self._notice(content_of(self.path))
-        if self._now.problem is not None:
-            raise Refused(422, self._now.problem)
-        self._alternatives = {"building": True}
-        self._alternatives_of = self._foundation()
-        self._chooser.order("find_alternatives", self.path, count)
+        if self._now.config is None:
+            raise RefusedError(
+                422, self._now.problem or ConfigError("the config doesn't hold", self.path.name)
+            )
+        self._building.find_alternatives(self._now.config, count)
         return self._bump()
 
     # Changes of the file
@@ -204,7 +194,7 @@ class Session:
             if text != old:
                 self._write(text, content)
         except WrapItError as error:
-            raise Refused(422, error) from None
+            raise RefusedError(422, error) from None
         self._history.add(new.content)
         self._take(new)
         return self._revision
@@ -213,14 +203,14 @@ class Session:
         content = content_of(self.path)
         if self._notice(content):
             problem = "the file has just been changed in an editor"
-            raise Refused(409, ConfigError(problem, self.path.name, f"look at it, and {what} again"))
+            raise RefusedError(409, ConfigError(problem, self.path.name, f"look at it, and {what} again"))
         target = there()
         if target is None:
-            raise Refused(409, ConfigError(f"there is nothing to {what}", self.path.name))
+            raise RefusedError(409, ConfigError(f"there is nothing to {what}", self.path.name))
         try:
             self._write(target.decode("utf-8"), content)
         except ConfigError as error:
-            raise Refused(422, error) from None
+            raise RefusedError(422, error) from None
         go()
         self._take(self._judge(target))
         return self._revision
@@ -262,72 +252,14 @@ class Session:
                 self._rebuild()
 
     def _signatures(self) -> tuple[object, ...]:
-        return _signature(self.path), self.drawing, self.drawing and _signature(self.drawing)
-
-    # Building
+        return signature(self.path), self.drawing, self.drawing and signature(self.drawing)
 
     def _rebuild(self) -> None:
-        self._fresh, self._problem, self._building = False, None, None
-        if self._soon is not None:
-            self._soon.cancel()
-        if self._builder.is_busy:
-            self._builder.stop()
-        if self._alternatives is not None and self._alternatives_of != self._foundation():
-            self._alternatives = None
-            self._chooser.stop()
-        if self._now.problem is None:
-            self._building = {"stage": "starting", "done": [], "stages": []}
-            self._builder.warm_up()
-            self._soon = asyncio.get_running_loop().call_later(GATHER_S, self._build)
+        self._building.begin(self._now.config)
         self._bump()
-
-    def _build(self) -> None:
-        self._builder.order("build_piece", self.path, self._output)
-
-    def _hear(self, message: Message) -> None:
-        if "ended" in message:
-            self._building, self._problem = None, message["ended"]
-            self._fresh = self._problem is None
-        building = self._building
-        if building is not None and "building" in message:
-            self._building = building | {"stage": message["building"], "stages": message["stages"]}
-        if building is not None and "done" in message:
-            self._building = building | {"done": [*building["done"], message["done"]]}
-        self._shown = self._shown | message.get("shown", {})
-        self._findings = message.get("findings", self._findings)
-        if "folder" in message:
-            self.folder = Path(message["folder"])
-        self._bump()
-
-    def _hear_alternatives(self, message: Message) -> None:
-        if message.get("ended") is not None:
-            self._alternatives = {"error": message["ended"]}
-        self._alternatives = message.get("alternatives", self._alternatives)
-        self._bump()
-
-    def _foundation(self) -> str:
-        """What alternatives depend upon, as a hash."""
-        config, drawing = self._now.config, self.drawing
-        if config is None or drawing is None:
-            return ""
-        parts = config.model_dump(
-            mode="json", include={"drawing", "size", "tracing", "decomposition", "wire"}
-        )
-        parts["decomposition"].pop("choice", None)  # choosing one of them changes none of them
-        text = json.dumps([parts, _signature(drawing)], sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()
 
     def _bump(self) -> int:
         self._revision += 1
         for news in self._waiting:
             news.set()
         return self._revision
-
-
-def _signature(path: Path) -> tuple[int, ...] | None:
-    """What changes when a file is written, also by a file of the same size in its place."""
-    try:
-        status = path.stat()
-    except OSError:
-        return None
-    return status.st_mtime_ns, status.st_ctime_ns, status.st_size, status.st_ino

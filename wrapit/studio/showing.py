@@ -96,7 +96,7 @@ def placed(findings: Sequence[dict[str, str]], work: Work) -> list[dict[str, Any
 
 
 def place(where: str, work: Work) -> list[float] | None:
-    """The point of the piece that a finding's or mistake's `where` means: on a wire, of a segment or junction.
+    """The point of the piece that a finding's `where` means: on a wire, of a segment or junction.
 
     None where it means none; sheets and jigs have places of their own, which aren't the piece's.
     """

@@ -13,7 +13,7 @@ from wrapit.config import Config, load_config
 from wrapit.config.reading import LARGEST_FILE
 from wrapit.errors import ConfigError, WrapItError
 from wrapit.pipeline.textfile import write_whole
-from wrapit.studio.values import BOM, said
+from wrapit.studio.text.values import BOM, said
 from wrapit.units import printable
 
 _GONE: Final = b""
@@ -72,19 +72,18 @@ def text_of(content: bytes, path: Path) -> str:
         raise ConfigError("the config is not UTF-8", path.name, "save it as UTF-8 text") from None
 
 
-def write(path: Path, text: str) -> bytes:
-    """Writes the config whole, through links, with the rights that it had. Raises ConfigError, else its bytes."""
+def write(path: Path, text: str) -> None:
+    """Writes the config whole, through links, with the rights that it had. Raises ConfigError."""
     target = Path(os.path.realpath(path))
     try:
         mode = target.stat().st_mode & 0o7777
         write_whole(target, text)
-        os.chmod(target, mode)
+        target.chmod(mode)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise ConfigError(
             f"can't be written ({reason})", path.name, "check its permissions and the disk"
         ) from None
-    return text.encode("utf-8")
 
 
 def _loaded(content: bytes, path: Path) -> Config:

@@ -1,4 +1,4 @@
-"""Changes to a config's text: only the lines that a change is about differ, everything else stays byte for byte.
+"""Changes to a config's text: the lines that a change is about differ, all else stays byte for byte.
 
 A YAML library that reads and writes again keeps comments, but not each blank, quote and line length. So its
 marks (where each value begins and ends) say where to splice the text. After each splice the new text is read,
@@ -16,8 +16,8 @@ from typing import Any, Final
 
 from wrapit.config.reading import UNREADABLE
 from wrapit.errors import ConfigError
-from wrapit.studio.splicing import relisted, removed, replaced
-from wrapit.studio.values import BOM, plain, said, value_at, with_value, without_value
+from wrapit.studio.text.splicing import relisted, removed, replaced
+from wrapit.studio.text.values import BOM, plain, said, value_at, with_value, without_value
 from wrapit.units import printable, shortened
 
 CONSTRAINTS: Final = "decomposition.constraints"
@@ -61,9 +61,9 @@ def edited(text: str, change: Change) -> str:
 
     Raises ConfigError where the text is no YAML, or the change can't be applied.
 
-    >>> print(edited("drawing: bee.png  # ours\\nsize: 40 mm\\n", Change(set={"size": "60 mm", "pair": True})))
+    >>> print(edited("drawing: bee.png  # ours\\nsize: 40 mm\\n", Change(set={"size": "6 cm", "pair": True})))
     drawing: bee.png  # ours
-    size: 60 mm
+    size: 6 cm
     pair: true
     <BLANKLINE>
     """

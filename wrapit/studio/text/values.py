@@ -69,7 +69,7 @@ def with_value(data: Mapping[str, Any], key: str, value: Any) -> dict[str, Any]:
 
 
 def without_value(data: Mapping[str, Any], key: str) -> dict[str, Any]:
-    """The data without a dotted key; a block that nothing is left in goes too, unless that means something."""
+    """The data without a dotted key; a block with nothing left in it goes too, unless that says something."""
     parent, _, last = key.rpartition(".")
     inner = value_at(data, parent) if parent else data
     rest = {name: item for name, item in inner.items() if name != last}

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from wrapit.config import Config
 from wrapit.config.reading import read_yaml
 from wrapit.errors import ConfigError
-from wrapit.studio.values import plain
+from wrapit.studio.text.values import plain
 
 _PLAIN: Final = re.compile(r"[A-Za-z0-9](?:[\w ./+-]*[\w./+-])?")
 """Texts that mean themselves wherever they stand, unless they read as a number or truth value."""
