@@ -14,13 +14,14 @@ from starlette.routing import Route
 from starlette.types import ASGIApp
 
 from wrapit.errors import ConfigError
-from wrapit.studio.guard import Door, Guard
+from wrapit.studio.gate import Door, Guard
 from wrapit.studio.serving import built_file, drawing_file, not_there, page_file
 from wrapit.studio.session import RefusedError, Session
 
 LARGEST_BODY: Final = 1_500_000
 """Bytes of a request: a config of 200 kB in which JSON writes each letter as six, and some."""
 ASSETS: Final = ("studio.js", "studio.css")
+"""What the page loads; its own text is at `/`."""
 
 
 def application(session: Session, door: Door) -> ASGIApp:

@@ -15,39 +15,39 @@ from wrapit.config.ranges import Mark, NumberRange, QuantityRange
 from wrapit.studio.text.values import value_at
 
 CONTROLS: Final = (
-    ("piece", "size", "Size"),
-    ("piece", "pair", "Pair"),
-    ("piece", "bail", "Bail"),
-    ("piece", "bail.at", "Place of the bail"),
-    ("piece", "bail.diameter", "Inside of the bail"),
-    ("wire", "wire.gauge", "Gauge"),
-    ("wire", "wire.metal", "Metal"),
-    ("wire", "wire.temper", "Temper"),
-    ("wires", "decomposition.choice", "Alternative"),
-    ("wires", "decomposition.weights.smoothness", "Smoothness"),
-    ("wires", "decomposition.weights.robustness", "Robustness"),
-    ("wires", "decomposition.weights.symmetry", "Symmetry"),
-    ("wires", "decomposition.weights.bridges", "Cost of a bridge"),
-    ("wires", "decomposition.bridges", "Bridges"),
-    ("wires", "decomposition.refine_dangling", "Double hanging wires"),
-    ("wires", "decomposition.solver", "Solver"),
-    ("jig", "jigs", "Jigs"),
-    ("jig", "jig.split", "One jig or several"),
-    ("jig", "jig.support", "Walls"),
-    ("jig", "jig.wall_thickness", "Thickness of walls"),
-    ("jig", "jig.min_wall_height", "Height of walls"),
-    ("jig", "jig.clearance", "Clearance"),
-    ("jig", "jig.springback", "Springback"),
-    ("laser", "plate.kerf", "Kerf"),
-    ("laser", "plate.sheet", "Sheet"),
-    ("laser", "plate.profile", "Profile"),
-    ("guide", "guide.language", "Language"),
-    ("guide", "guide.units", "Units"),
-    ("guide", "guide.paper", "Paper"),
-    ("guide", "guide.binding_gauge", "Binding wire"),
-    ("files", "outputs", "Formats"),
+    ("piece", "", "size", "Size"),
+    ("piece", "", "pair", "Pair"),
+    ("piece", "", "bail", "Bail"),
+    ("piece", "bail", "at", "Place of the bail"),
+    ("piece", "bail", "diameter", "Inside of the bail"),
+    ("wire", "wire", "gauge", "Gauge"),
+    ("wire", "wire", "metal", "Metal"),
+    ("wire", "wire", "temper", "Temper"),
+    ("wires", "decomposition", "choice", "Alternative"),
+    ("wires", "decomposition.weights", "smoothness", "Smoothness"),
+    ("wires", "decomposition.weights", "robustness", "Robustness"),
+    ("wires", "decomposition.weights", "symmetry", "Symmetry"),
+    ("wires", "decomposition.weights", "bridges", "Cost of a bridge"),
+    ("wires", "decomposition", "bridges", "Bridges"),
+    ("wires", "decomposition", "refine_dangling", "Double hanging wires"),
+    ("wires", "decomposition", "solver", "Solver"),
+    ("jig", "", "jigs", "Jigs"),
+    ("jig", "jig", "split", "One jig or several"),
+    ("jig", "jig", "support", "Walls"),
+    ("jig", "jig", "wall_thickness", "Thickness of walls"),
+    ("jig", "jig", "min_wall_height", "Height of walls"),
+    ("jig", "jig", "clearance", "Clearance"),
+    ("jig", "jig", "springback", "Springback"),
+    ("laser", "plate", "kerf", "Kerf"),
+    ("laser", "plate", "sheet", "Sheet"),
+    ("laser", "plate", "profile", "Profile"),
+    ("guide", "guide", "language", "Language"),
+    ("guide", "guide", "units", "Units"),
+    ("guide", "guide", "paper", "Paper"),
+    ("guide", "guide", "binding_gauge", "Binding wire"),
+    ("files", "", "outputs", "Formats"),
 )
-"""Group, key and label, in the order of the page: what a crafter decides for a piece. The rest of the schema
+"""Group, block, key and label, in the order of the page: what a crafter decides for a piece. The rest of the schema
 is for the text. A key that the models don't have is left out."""
 
 
@@ -60,7 +60,8 @@ def controls(data: Mapping[str, Any]) -> list[dict[str, Any]]:
     """
     missing = object()
     result = []
-    for group, key, label in CONTROLS:
+    for group, block, name, label in CONTROLS:
+        key = f"{block}.{name}" if block else name
         field = field_at(key)
         if field is None:
             continue

@@ -25,7 +25,9 @@ GAUGES: Final = range(10, 32, 2)
 """Wires that shops sell everywhere."""
 _OFFERED: Final = 2
 """Sizes that are offered at once: the next one, and one that surely helps more."""
+# From springy to soft, as `use softer wire` goes.
 _TEMPERS: Final = ("hard", "half hard", "dead soft")
+# How remedies say what to do: settings as the config or a sentence writes them, and measures.
 _VALUE: Final = r"\[[^\]]*\]|\d+(?:\.\d+)? ?(?:mm|AWG|deg|°)|[\w./-]*\w"
 _SETTING: Final = re.compile(rf"\b([a-z_]+(?:\.[a-z_]+)*)(?:: | to )({_VALUE})(?: or ({_VALUE}))?")
 _FOR_EXAMPLE: Final = re.compile(r"write for example (.+)")
@@ -33,6 +35,7 @@ _INSTEAD: Final = re.compile(r"did you mean '([^']+)'")
 _LARGER: Final = re.compile(r"\b(?:piece (?:\d+ mm )?|draw it )larger\b")
 _THINNER: Final = re.compile(r"\bthinner (?:or softer )?wire\b")
 _SOFTER: Final = re.compile(r"\bsofter wire\b")
+# The place of a mistake in a config: file, line, column, key.
 _KEY_OF: Final = re.compile(r"^.*:\d+:\d+ ([a-z_]+(?:\.[a-z_]+)*)$", re.DOTALL)
 Fix = dict[str, Any]
 

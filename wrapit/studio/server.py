@@ -16,7 +16,7 @@ import uvicorn
 
 from wrapit.errors import ConfigError
 from wrapit.studio.application import application
-from wrapit.studio.guard import Door
+from wrapit.studio.gate import Door
 from wrapit.studio.session import Session
 
 LEAVE_S: Final = 1

@@ -24,7 +24,9 @@ SAG_MM: Final = 0.05
 """Largest distance of a drawn polyline from its wire: half of what a screen shows at its usual 10 px a mm."""
 STEP_MM: Final = 0.25
 """Between the points that a polyline chooses among; bends of 0.6 mm stray less than SAG_MM from them."""
+# Micrometres are finer than any screen.
 _DECIMALS: Final = 3
+# How findings say where: along a wire, at a point of the piece, by a number of the drawing.
 _ALONG: Final = re.compile(r"(wire-\d+) at (\d+(?:\.\d+)?)")
 _POINT: Final = re.compile(r"^(?:at )?\((-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)\) mm$")
 _WIRE: Final = re.compile(r"wire-\d+")

@@ -16,6 +16,7 @@ from wrapit.pipeline.textfile import write_whole
 from wrapit.studio.text.values import BOM, said
 from wrapit.units import printable
 
+# What a file holds that isn't there; an empty config is no config either.
 _GONE: Final = b""
 
 

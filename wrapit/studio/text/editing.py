@@ -20,8 +20,11 @@ from wrapit.studio.text.splicing import relisted, removed, replaced
 from wrapit.studio.text.values import BOM, plain, said, value_at, with_value, without_value
 from wrapit.units import printable, shortened
 
+# Where wishes about wires are listed.
 CONSTRAINTS: Final = "decomposition.constraints"
+# Words with dots between them; the config has three levels at most.
 _KEY: Final = re.compile(r"[a-z_]{1,40}(\.[a-z_]{1,40}){0,4}")
+# Unlike null, which a text may say.
 _MISSING: Final = object()
 
 
