@@ -47,8 +47,8 @@ CONTROLS: Final = (
     ("guide", "guide", "binding_gauge", "Binding wire"),
     ("files", "", "outputs", "Formats"),
 )
-"""Group, block, key and label, in the order of the page: what a crafter decides for a piece. The rest of the schema
-is for the text. A key that the models don't have is left out."""
+"""Group, block, key and label, in the order of the page: what a crafter decides for a piece. The rest of the
+schema is for the text. A key that the models don't have is left out."""
 
 
 def controls(data: Mapping[str, Any]) -> list[dict[str, Any]]:

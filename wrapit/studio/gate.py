@@ -8,6 +8,7 @@ from, and knows the token, which the link hands to the browser once and the brow
 from __future__ import annotations
 
 import secrets
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
 from typing import Final
@@ -19,7 +20,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 TOKEN_BYTES: Final = 32
 """256 random bits: nobody guesses them in the life of a server."""
-# The page loads nothing from outside, and nobody else frames it; its script sets widths and colours as styles.
+# The page loads nothing from outside, and nobody else frames it; its script sets widths as styles.
 PAGE_POLICY: Final = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
     "connect-src 'self'; frame-src 'self'; frame-ancestors 'self'; base-uri 'none'; form-action 'none'"
@@ -63,20 +64,26 @@ class Door:
 
     def refusal(self, method: str, headers: Headers, query: str) -> str | None:
         """Why a request may not come in; None where it may."""
+        return next(self._refusals(method, headers, query), None)
+
+    def _refusals(self, method: str, headers: Headers, query: str) -> Iterator[str]:
         origins = tuple(f"http://{host}" for host in self.hosts)
         given = headers.getlist("origin")
+        site = headers.get("sec-fetch-site", "none")
         if [host.lower() for host in headers.getlist("host")] not in [[host] for host in self.hosts]:
-            return "this address is not the studio's"
+            yield "this address is not the studio's"
         if any(origin.lower() not in origins for origin in given):
-            return "this page is not the studio's"
+            yield "this page is not the studio's"
         if not (self.has_token(query) or self._has_cookie(headers)):
-            return "open the link that wrapit studio printed: this one lacks its token"
+            yield "open the link that wrapit studio printed: this one lacks its token"
+        # A page of another port has the cookie too, for a site is a site whatever its port.
+        if site not in ("same-origin", "none") and not self.has_token(query):
+            yield "another page asks"
         if method not in ("GET", "HEAD"):
             if headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
-                return "a change is sent as application/json"
-            if not given and headers.get("sec-fetch-site") != "same-origin":
-                return "a change comes from the studio's own page"
-        return None
+                yield "a change is sent as application/json"
+            if not given and site != "same-origin":
+                yield "a change comes from the studio's own page"
 
     def has_token(self, query: str) -> bool:
         """Whether the query of an address has the token."""

@@ -45,6 +45,7 @@ class Session:
         self._now: Judged = self._judge(content_of(self.path))
         self._history = History(self._now.content, lambda content: self._judge(content).config is not None)
         self._revision = 1
+        self._seen: Message = {"revision": 0}
         self._waiting: set[asyncio.Event] = set()
         self._ended = False
         self._building = Building(self.path, output and output.absolute(), self._bump)
@@ -73,8 +74,13 @@ class Session:
 
     def state(self) -> Message:
         """All that the page shows."""
+        if self._seen["revision"] != self._revision:
+            self._seen = self._state()
+        return self._seen
+
+    def _state(self) -> Message:
         now, data, building = self._now, self._now.data, self._building
-        buttons = functools.partial(fixes, data=data, size_mm=building.size_mm)
+        buttons = functools.cache(functools.partial(fixes, data=data, size_mm=building.size_mm))
         problem = told(now.problem) if now.problem is not None else building.problem
         return {
             "revision": self._revision,
@@ -90,9 +96,7 @@ class Session:
             "controls": controls(data),
             "constraints": constraint_entries(data),
             "shown": building.shown,
-            "findings": [
-                each | {"fixes": buttons(each["remedy"], each["where"])} for each in building.findings
-            ],
+            "findings": [each | {"fixes": buttons(each["remedy"], "")} for each in building.findings],
             "alternatives": building.alternatives,
         }
 
