@@ -53,9 +53,12 @@ def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | Non
     Make it 70 mm {'set': {'size': '70 mm'}}
     Make it 80 mm {'set': {'size': '80 mm'}}
     """
+    now = _config(data)
+    measures = _measures(remedy, now, size_mm) if now is not None else ()
     offered: list[Fix] = []
-    for fix in (*_settings(remedy), *_corrections(remedy, where, data), *_measures(remedy, data, size_mm)):
-        if fix not in offered and _takes(data, fix["change"]):
+    for fix in (*_settings(remedy), *_corrections(remedy, where, data), *measures):
+        then = _config(data, fix["change"])
+        if fix not in offered and then is not None and then != now:
             offered.append(fix)
     return offered
 
@@ -91,12 +94,8 @@ def _corrections(remedy: str, where: str, data: Mapping[str, Any]) -> Iterator[F
             yield {"label": f"Call it {word}", "change": {"unset": [key], "set": {right: value}}}
 
 
-def _measures(remedy: str, data: Mapping[str, Any], size_mm: float | None) -> Iterator[Fix]:
+def _measures(remedy: str, config: Config, size_mm: float | None) -> Iterator[Fix]:
     """What a maker would try: a larger piece, thinner wire, softer wire."""
-    try:
-        config = Config.model_validate(data)
-    except ValidationError:
-        return  # nothing is known of a config that doesn't hold
     now_mm = config.size or size_mm
     if _LARGER.search(remedy) and now_mm:
         for mm in [size for size in SIZES_MM if size > now_mm * 1.02][:_OFFERED]:
@@ -111,18 +110,17 @@ def _measures(remedy: str, data: Mapping[str, Any], size_mm: float | None) -> It
             yield {"label": f"Take {temper} wire", "change": {"set": {"wire.temper": temper}}}
 
 
-def _takes(data: Mapping[str, Any], change: Mapping[str, Any]) -> bool:
-    """Whether a change makes a config that holds, and another one than before."""
+def _config(data: Mapping[str, Any], change: Mapping[str, Any] | None = None) -> Config | None:
+    """What data mean, after a change; None where no config would hold that."""
     changed = dict(data)
     try:
-        for key in change.get("unset", ()):
+        for key in (change or {}).get("unset", ()):
             changed = without_value(changed, key)
-        for key, value in change.get("set", {}).items():
+        for key, value in (change or {}).get("set", {}).items():
             changed = with_value(changed, key, value)
-        Config.model_validate(changed)
+        return Config.model_validate(changed)
     except (ConfigError, ValidationError):
-        return False
-    return changed != data
+        return None
 
 
 def _read(text: str) -> Any:
