@@ -12,7 +12,8 @@ import threading
 from types import FrameType
 from typing import NoReturn
 
-import wrapit.cli.commands  # noqa: F401  registers what it holds
+import wrapit.cli.commands
+import wrapit.cli.studio_command  # noqa: F401  registers what it holds
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 

@@ -48,17 +48,22 @@ function source(drawing, picture) {
   });
 }
 
-/** A place for a mark: where it belongs, or above the marks that are there already. */
+/** A place for a mark: where it belongs, or the nearest one around it that is free. */
 function free([x, y], taken, room) {
-  const hidden = (height) => taken.some(([a, b]) => Math.hypot(a - x, b - height) < 0.95 * room);
-  while (hidden(y)) y += room;
-  taken.push([x, y]);
-  return [x, y];
+  const around = [[x, y]];
+  for (let ring = 1; ring < 6; ring += 1)
+    for (let step = 0; step < 6 * ring; step += 1) {
+      const turn = Math.PI / 2 + (2 * Math.PI * step) / (6 * ring);
+      around.push([x + ring * room * Math.cos(turn), y + ring * room * Math.sin(turn)]);
+    }
+  const place = around.find(([a, b]) => taken.every(([c, d]) => Math.hypot(a - c, b - d) > 0.95 * room)) ?? [x, y];
+  taken.push(place);
+  return place;
 }
 
 /**
- * The picture of a state. `selected` is {segments: [..], junction: n | null}; `layers` says what else is
- * seen; `pick` is told of clicks: pick.segment(n), pick.junction(n), pick.finding(n).
+ * The picture of a state. `selected` is {segments: [..], junction: n | null, finding: n | null}; `layers` says
+ * what else is seen; `pick` is told of clicks: pick.segment(n), pick.junction(n), pick.finding(n).
  */
 export function canvas(state, selected, layers, picture, pick) {
   const { drawing, wires } = state.shown;
@@ -115,7 +120,7 @@ export function canvas(state, selected, layers, picture, pick) {
     });
   const taken = [];
   state.findings.forEach((finding, index) => {
-    if (!finding.at) return;
+    if (!finding.at || (finding.level === "note" && !layers.notes && index !== selected.finding)) return;
     const [x, y] = free(finding.at, taken, 2.4 * unit);
     children.push(
       svg("path", {

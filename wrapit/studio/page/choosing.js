@@ -17,8 +17,9 @@ function wishing(state, wish) {
   return { constrain: [wish], release };
 }
 
-const wanted = (state, wish) =>
-  state.constraints.some(({ constraint }) => Object.entries(wish).every(([key, value]) => constraint[key] !== undefined && members(constraint[key]) === members(value)));
+/** Where the config holds this wish already. */
+const held = (state, wish) =>
+  state.constraints.filter(({ constraint }) => Object.entries(wish).every(([key, value]) => constraint[key] !== undefined && members(constraint[key]) === members(value))).map(({ index }) => index);
 
 /** How wires pass now: `a,b` of every two segment ends that a wire joins at a junction. */
 function passes(state, junction) {
@@ -40,8 +41,12 @@ const carrier = (state, segment) => {
   return index < 0 ? "" : ` (${state.shown.wires[index].name})`;
 };
 
-const ask = (state, act, label, wish) =>
-  html("button", { type: "button", "aria-pressed": String(wanted(state, wish)), onclick: () => act(wishing(state, wish)) }, label);
+/** A button that is pressed while the wish is held; pressed again, it takes the wish away. */
+function ask(state, act, label, wish) {
+  const release = held(state, wish);
+  const clicked = () => act(release.length ? { release } : wishing(state, wish));
+  return html("button", { type: "button", "aria-pressed": String(release.length > 0), onclick: clicked }, label);
+}
 
 function aboutJunction(state, junction, act) {
   const ends = incident(state.shown.drawing)[junction];

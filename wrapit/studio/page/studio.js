@@ -8,10 +8,10 @@ import * as panels from "./panels.js";
 import * as server from "./server.js";
 
 const TABS = { wires: "Wires", jig: "Jig", guide: "Guide", ways: "Ways to divide it", text: "Text", files: "Files" };
-const LAYERS = { wires: "wires", read: "what was read", numbers: "numbers", picture: "the picture" };
+const LAYERS = { wires: "wires", read: "what was read", numbers: "numbers", notes: "notes", picture: "the picture" };
 
 const at = (id) => document.getElementById(id);
-const view = { tab: "wires", selected: { segments: [], junction: null }, finding: null, layers: { wires: true, read: false, numbers: false, picture: false } };
+const view = { tab: "wires", selected: { segments: [], junction: null, finding: null }, layers: { wires: true, read: false, numbers: false, notes: false, picture: false } };
 let state = null;
 let picture = null;
 
@@ -52,22 +52,22 @@ const pick = {
   segment(index) {
     const { segments } = view.selected;
     const kept = segments.includes(index) ? segments.filter((each) => each !== index) : [...segments, index].slice(-2);
-    view.selected = { segments: kept, junction: null };
+    view.selected = { segments: kept, junction: null, finding: null };
     showPicture();
   },
   junction(index) {
-    view.selected = { segments: [], junction: view.selected.junction === index ? null : index };
+    view.selected = { segments: [], junction: view.selected.junction === index ? null : index, finding: null };
     showPicture();
   },
   finding(index) {
-    view.finding = index;
+    view.selected.finding = index;
     showFindings();
     at(`finding-${index}`).scrollIntoView({ block: "nearest" });
   },
 };
 
 function locate(index) {
-  view.finding = index;
+  view.selected.finding = index;
   showTab("wires");
   showPicture();
   document.querySelector(`#canvas [data-finding="${index}"]`)?.focus();
@@ -95,7 +95,7 @@ function showPicture() {
   at("chosen").replaceChildren(...chosen(state, view.selected, act).filter(Boolean));
 }
 
-const showFindings = () => at("findings").replaceChildren(...panels.findings(state, view.finding, locate, act));
+const showFindings = () => at("findings").replaceChildren(...panels.findings(state, view.selected.finding, locate, act));
 
 function statusText() {
   const { building } = state;

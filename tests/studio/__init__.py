@@ -1,0 +1,1 @@
+"""The page on this machine: texts, gates, and the real command."""

@@ -1,0 +1,177 @@
+"""What the page offers: each control is of a key that there is, each button is taken by the config."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from wrapit.config import Config
+from wrapit.config.loading import default_config
+from wrapit.studio.controls import CONTROLS, constraint_entries, controls, field_at, from_page
+from wrapit.studio.fixes import fixes
+from wrapit.studio.text.history import History
+from wrapit.studio.text.values import with_value, without_value
+
+DATA: dict[str, Any] = {"drawing": "bee.png", "size": "40 mm"}
+# Keys that a later config may have; the page offers them as soon as it does.
+COMING = {"decomposition.choice"}
+
+
+def applied(change: dict[str, Any], data: dict[str, Any]) -> Config:
+    for key in change.get("unset", ()):
+        data = without_value(data, key)
+    for key, value in change["set"].items():
+        data = with_value(data, key, value)
+    return Config.model_validate(data)
+
+
+def test_every_control_is_of_a_key_of_the_config() -> None:
+    keys = {f"{block}.{name}" if block else name for _, block, name, _ in CONTROLS}
+    assert {key for key in keys if field_at(key) is None} <= COMING
+    shown = controls(DATA)
+    assert len(shown) == len({each["key"] for each in shown}) >= len(keys - COMING)
+    assert [each["key"] for each in shown if not each["help"]] == []
+
+
+@pytest.mark.parametrize("control", controls({}), ids=lambda control: control["key"])
+def test_what_a_control_offers_is_taken(control: dict[str, Any]) -> None:
+    key, kind = control["key"], control["kind"]
+    offers: list[Any] = [control["default"]]
+    if kind == "choice":
+        offers += control["choices"]
+    elif kind == "choices":
+        offers += [[choice] for choice in control["choices"]]
+    elif kind == "switch":
+        offers += [True, False]
+    elif kind == "number":
+        offers += [control["min"], control["max"]]
+    elif "min" in control:
+        offers += [control["min"], control["max"], control["example"]]
+    else:
+        offers += ["top", "3", "[12 mm, 30 mm]"]
+    assert len(offers) > 1
+    for offer in offers:
+        value = from_page(key, offer)
+        if value is not None:
+            applied({"set": {key: value}}, DATA)
+
+
+def test_a_default_is_the_config_s() -> None:
+    config = default_config()
+    for control in controls({}):
+        if control["default"] is None or control["key"].startswith("bail"):
+            continue
+        value: Any = applied({"set": {control["key"]: control["default"]}}, {"drawing": "none"})
+        wanted: Any = config
+        for name in control["key"].split("."):
+            value, wanted = getattr(value, name), getattr(wanted, name)
+        assert value == pytest.approx(wanted) if isinstance(wanted, float) else value == wanted
+        assert control["value"] == control["default"]
+        assert not control["given"]
+
+
+def test_values_are_as_the_text_writes_them() -> None:
+    data = {"drawing": "a.png", "wire": {"gauge": "swg18"}, "bail": {"at": ["1 cm", "2 cm"]}}
+    shown = {each["key"]: each for each in controls(data)}
+    assert shown["wire.gauge"]["value"] == "swg18"
+    assert shown["wire.gauge"]["given"]
+    assert shown["bail"]["value"] is True
+    assert shown["bail.at"]["value"] == "[1 cm, 2 cm]"
+    assert from_page("bail.at", "[1 cm, 2 cm]") == ["1 cm", "2 cm"]
+    assert from_page("bail", True) == {}
+    assert from_page("bail", False) is None
+    assert from_page("size", "") is None
+
+
+def test_a_constraint_of_each_kind_has_a_sentence() -> None:
+    listed = [
+        {"same_wire": [3, 7, 8]},
+        {"different_wire": [1, 2]},
+        {"through": [1, 2], "at": 5},
+        {"not_through": [1, 2]},
+        {"start_at": 4},
+        {"cut_at": 4},
+        {"max_wire_length": "30 cm"},
+    ]
+    entries = constraint_entries({"decomposition": {"constraints": listed}})
+    assert [each["constraint"] for each in entries] == listed
+    assert [each["index"] for each in entries] == list(range(7))
+    assert all(" " in each["text"] and ":" not in each["text"] for each in entries)
+
+
+@pytest.mark.parametrize(
+    ("remedy", "changes"),
+    [
+        ("with size: 70 mm they would hold 80%", [{"size": "70 mm"}]),
+        (
+            "with size: 71 mm they would hold 31% or with wire.gauge: 22 AWG they would hold 35%",
+            [{"size": "71 mm"}, {"wire.gauge": "22 AWG"}],
+        ),
+        ("make the piece larger, or set jig.split to per-wire", [{"jig.split": "per-wire"}, "size", "size"]),
+        ("make the piece larger, or use thinner or softer wire", ["size", "size", {"wire.gauge": "20 AWG"}]),
+        (
+            "make the piece larger, take thinner wire, or leave sheet out of `jigs`",
+            ["size", "size", "wire.gauge"],
+        ),
+        (
+            "extend its line, or set decomposition.refine_dangling: auto",
+            [{"decomposition.refine_dangling": "auto"}],
+        ),
+        ("join them with a line, set decomposition.bridges: true, or not", [{"decomposition.bridges": True}]),
+        ("set jig.split to auto or per-wire, or leave it", [{"jig.split": "per-wire"}]),
+        ("set plate.wall_sheet to a thicker sheet to need only one", []),
+        ("scan at a higher resolution", []),
+        ("", []),
+    ],
+)
+def test_a_button_does_what_the_sentence_says(remedy: str, changes: list[Any]) -> None:
+    offered = fixes(remedy, "wire-01 at 3 mm", DATA)
+    made = [fix["change"]["set"] for fix in offered]
+    assert len(made) == len(changes)
+    for one, wanted in zip(made, changes, strict=True):
+        assert one == wanted if isinstance(wanted, dict) else list(one) == [wanted]
+        applied({"set": one}, DATA)
+    assert len({fix["label"] for fix in offered}) == len(offered)
+
+
+@pytest.mark.parametrize("size", ["3 mm", "39.9 mm", "150 mm", "999 mm", "1000 mm"])
+def test_a_larger_size_is_larger_and_taken(size: str) -> None:
+    data = DATA | {"size": size}
+    for fix in fixes("make the piece larger", "", data):
+        config = applied(fix["change"], data)
+        assert config.size is not None
+        assert config.size > float(size.removesuffix(" mm"))
+
+
+def test_the_size_of_the_piece_stands_in_for_that_of_the_config() -> None:
+    assert fixes("make the piece larger", "", {"drawing": "bee.svg"}) == []
+    [first, _] = fixes("make the piece larger", "", {"drawing": "bee.svg"}, 62.5)
+    assert first["change"] == {"set": {"size": "70 mm"}}
+
+
+def test_a_mistake_of_the_text_has_its_button() -> None:
+    wrong = {"drawing": "bee.png", "sise": "4 cm"}
+    [fix] = fixes("did you mean 'size'?", "bee.yaml:2:1 sise", wrong)
+    assert fix["change"] == {"unset": ["sise"], "set": {"size": "4 cm"}}
+    [fix] = fixes("did you mean 'copper'?", "bee.yaml:2:8 wire.metal", DATA | {"wire": {"metal": "coper"}})
+    assert fix["change"] == {"set": {"wire.metal": "copper"}}
+    offered = fixes("write for example '9 mm' or '9 in'", "bee.yaml:2:1 size", DATA | {"size": 9})
+    assert [fix["change"]["set"]["size"] for fix in offered] == ["9 mm", "9 in"]
+
+
+def test_history_passes_over_what_does_not_hold() -> None:
+    history = History(b"a", lambda content: content != b"broken")
+    assert history.before() is history.after() is None
+    history.add(b"broken")
+    history.add(b"c")
+    assert history.before() == b"a"
+    history.go_back()
+    assert (history.current, history.after()) == (b"a", b"c")
+    history.go_on()
+    assert (history.current, history.after()) == (b"c", None)
+    history.go_back()
+    history.add(b"d")
+    assert history.after() is None
+    with pytest.raises(ValueError, match="no such step"):
+        history.go_on()

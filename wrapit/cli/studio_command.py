@@ -1,0 +1,54 @@
+"""`wrapit studio`: a page on this machine to work on a piece."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from wrapit.cli.app import app, say
+
+
+@app.command()
+def studio(
+    piece: Annotated[
+        Path,
+        typer.Argument(metavar="CONFIG|DRAWING", help="A config, or a drawing that gets one beside it."),
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Default: build/<name>.")
+    ] = None,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Where to listen; 0 takes a free one.")] = 0,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the link, and open no browser.")
+    ] = False,
+) -> None:
+    """Work on a piece in the browser: see it, click what should change; the YAML follows."""
+    from wrapit.studio.server import serve
+
+    serve(_config(piece), output, port, browser=not no_browser)
+
+
+def _config(piece: Path) -> Path:
+    """The config that is meant: the file itself, or the one beside a drawing, which is made where none is."""
+    from wrapit.errors import ConfigError
+    from wrapit.pipeline.textfile import write_whole
+
+    if piece.suffix.lower() in (".yaml", ".yml") or not piece.suffix:
+        if not piece.is_file():
+            raise ConfigError("no such config", str(piece), "give a config, or a drawing to begin with")
+        return piece
+    config = piece.with_suffix(".yaml")
+    if config.is_file():
+        return config
+    from wrapit.drawing.proposal import propose_config
+
+    text = propose_config(piece)
+    try:
+        write_whole(config, text)
+    except OSError as error:
+        problem, remedy = f"can't be written ({error.strerror})", "move the drawing to a folder of yours"
+        raise ConfigError(problem, str(config), remedy) from None
+    say(f"written: {config}")
+    return config

@@ -1,0 +1,1 @@
+"""The text of a config: read, judged, changed and written; see README.md."""
