@@ -12,6 +12,7 @@ import threading
 from types import FrameType
 from typing import NoReturn
 
+import wrapit.cli.batch_command
 import wrapit.cli.commands  # noqa: F401  registers what it holds
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
