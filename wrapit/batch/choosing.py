@@ -41,7 +41,7 @@ def _configs(argument: Path) -> Iterator[Path]:
             )
         yield from found
     elif glob.has_magic(str(argument)) and not os.path.lexists(argument):
-        matches = (Path(name) for name in glob.glob(str(argument), recursive=True))
+        matches = (Path(name) for name in glob.glob(str(argument), recursive=True))  # noqa: PTH207  absolute too
         found = sorted(path for path in matches if path.is_file())
         if not found:
             raise ConfigError("no config is called so", str(argument), "name configs, or a folder of them")

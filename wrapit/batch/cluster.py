@@ -23,7 +23,7 @@ _AHEAD, _LEAST_AHEAD = 3, 32
 def built_by(
     client: Any, pieces: Sequence[Piece], folder: Path, overrides: Sequence[str], say: Callable[[str], None]
 ) -> Generator[Outcome, None, None]:
-    """Each piece as it comes back; a worker's death costs nothing but time, for Dask sends its pieces again."""
+    """Each piece as it comes back; a worker's death costs only time, for Dask sends its pieces again."""
     workers = client.scheduler_info(n_workers=-1)["workers"]
     if not workers:
         address = client.scheduler.address
@@ -35,9 +35,7 @@ def built_by(
 def _streamed(
     client: Any, pieces: Sequence[Piece], folder: Path, overrides: Sequence[str], ahead: int
 ) -> Generator[Outcome, None, None]:
-    from distributed import as_completed
-
-    waiting, under_way, arriving = iter(pieces), {}, as_completed()
+    waiting, under_way, arriving = iter(pieces), {}, _dask().as_completed()
     while True:
         for piece in waiting:
             try:
@@ -67,16 +65,12 @@ def _sent(client: Any, piece: Piece, folder: Path, overrides: Sequence[str]) -> 
 
 def _on_worker(parcel: dict[str, Any]) -> dict[str, Any]:
     """In the worker's own scratch folder, which Dask clears away after one that was killed."""
-    from distributed import get_worker
-
-    worker = get_worker()
+    worker = _dask().get_worker()
     return build_parcel(parcel, worker.address, worker.local_directory)
 
 
 def _received(future: Any, piece: Piece, folder: Path) -> Outcome:
     from concurrent.futures import CancelledError
-
-    from distributed import KilledWorker
 
     from wrapit.pipeline.output.folder import followed
 
@@ -88,7 +82,7 @@ def _received(future: Any, piece: Piece, folder: Path) -> Outcome:
         return Outcome(piece, ended, answer.get("seconds", 0.0))
     except WrapItError as error:
         return Outcome(piece, failed(error))
-    except KilledWorker:
+    except _dask().KilledWorker:
         problem = "workers ended amid this piece, again and again"
         return _lost(
             piece, problem, "give the workers more memory (or fewer threads), and go on with --resume"
@@ -115,7 +109,7 @@ def connected(address: str) -> Iterator[Any]:
     """
     option = f"--scheduler {address}"
     try:
-        from distributed import Client
+        dask = _dask()
     except ImportError:
         remedy = 'install it: pip install "wrapit[cluster]"'
         raise ConfigError("Dask is not installed", option, remedy) from None
@@ -123,7 +117,7 @@ def connected(address: str) -> Iterator[Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of other versions beside: only functions and bytes are sent
         try:
-            client = Client(address, timeout=_ANSWER_S, set_as_default=False)
+            client = dask.Client(address, timeout=_ANSWER_S, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             reason = " ".join(str(error).split())[:120] or type(error).__name__
             remedy = "start one with `dask scheduler`; it prints its address, such as tcp://192.168.0.5:8786"
@@ -132,3 +126,10 @@ def connected(address: str) -> Iterator[Any]:
         yield client
     finally:
         client.close()
+
+
+def _dask() -> Any:
+    """Dask's own annotations are half done; raises ImportError where it isn't installed."""
+    import distributed
+
+    return distributed

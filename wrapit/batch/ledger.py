@@ -1,4 +1,4 @@
-"""`batch.json` and `index.html`: written whole as results come in, and only where they are the batch's own."""
+"""`batch.json` and `index.html`: written whole as results come in, over nobody else's files."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from wrapit.pipeline.textfile import write_whole
 
 # What tells that a batch.json is wrapit's.
 FORMAT: Final = "wrapit-batch/1"
-# Writing a page of a thousand pieces takes a tenth of a second, and would do so a thousand times: it waits for
-# so many times as long as the last time took. What a kill loses of it, --resume finds in the pieces' reports.
+# Writing a page of a thousand pieces takes a tenth of a second, and would do so a thousand times: it waits
+# for so many times as long as the last time took. What a kill loses of it, --resume finds in pieces' reports.
 _PATIENCE: Final = 10.0
 
 
@@ -63,8 +63,10 @@ class Ledger:
     def write(self) -> None:
         """Both files as of now.
 
-        While the page is replaced, `batch.json` lists it as it was and as it will be: a kill at any moment leaves
-        a page that is known to be ours. Raises ConfigError when somebody else wrote one of them meanwhile.
+        While the page is replaced, `batch.json` lists it as it was and as it will be: a kill at any moment
+        leaves a page that is known to be ours.
+
+        Raises ConfigError when somebody else wrote one of them meanwhile.
         """
         refuse_foreign(self._folder, self._index_digests)
         document = self.document
@@ -101,7 +103,7 @@ def held(folder: Path) -> Iterator[None]:
 
 
 def refuse_foreign(folder: Path, index_digests: Sequence[str]) -> None:
-    """Raises ConfigError where a file that the batch would write is somebody else's, or changed by somebody."""
+    """Raises ConfigError where a file that the batch would write is somebody's, or changed by somebody."""
     for name, ours in (
         (LEDGER, _earlier(folder) is not None),
         (INDEX, is_unchanged(folder / INDEX, index_digests)),

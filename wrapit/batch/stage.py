@@ -49,11 +49,11 @@ def run_batch(
 ) -> Batch:
     """Builds the pieces that the arguments stand for into `target/<name>/`, each on its own.
 
-    With a `scheduler` on Dask's workers, else in `jobs` processes here. With `resume` what is up to date isn't
-    even started. A piece that fails says why in its entry; whatever ends the batch itself, what is done stays.
+    With a `scheduler` on Dask's workers, else in `jobs` processes here. With `resume` what is up to date
+    isn't even started. A piece that fails says why in its entry; whatever ends the batch, what is done stays.
 
-    Raises ConfigError for what can't be begun: no such configs, two of one name, a folder or file of somebody
-    else's, no scheduler. OSError where the folder can't be written.
+    Raises ConfigError for what can't be begun: no such configs, two of one name, a folder or file of
+    somebody else's, no scheduler. OSError where the folder can't be written.
     """
     from wrapit.pipeline.output.folder import followed
 

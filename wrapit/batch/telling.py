@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from wrapit.batch.model import INDEX, Outcome
-from wrapit.batch.stage import Batch
 from wrapit.errors import WrapItError
 
 
@@ -44,9 +43,9 @@ def duration(minutes: float | None) -> str:
     return f"{hours} h {rest} min" if hours else f"{max(5, rest)} min"
 
 
-def summary_lines(batch: Batch, folder: Path) -> Iterator[str]:
+def summary_lines(document: dict[str, Any], folder: Path) -> Iterator[str]:
     """A row for each piece under a head, the metal of all, and where the catalogue is."""
-    pieces, totals = batch.document["pieces"], batch.document["totals"]
+    pieces, totals = document["pieces"], document["totals"]
     head = ("piece", "wires", "cut", "metal", "cost", "difficulty", "warnings")
     rows = [_row(entry, totals["currency"]) for entry in pieces]
     shown = [column for column in range(len(head)) if any(row[column] for row in rows)] or [0]

@@ -112,5 +112,5 @@ def _show(result: Batch, folder: Path, as_json: bool, quiet: bool) -> None:
     if as_json:
         print(json.dumps({**result.document, "timings_s": result.timings_s}, allow_nan=False))
     elif not quiet:
-        for line in summary_lines(result, folder):
+        for line in summary_lines(result.document, folder):
             print(line)

@@ -51,7 +51,10 @@ def write_guide(
     ring: JumpRing | None,
     config: Config,
 ) -> tuple[Guide, tuple[Finding, ...]]:
-    """`guide.html`, `guide.pdf`, and what they tell; the steps are of the first jig that holds wires, and of its mirror image."""
+    """`guide.html`, `guide.pdf`, and what they tell.
+
+    The steps are of the first jig that holds wires, and of its mirror image.
+    """
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
     from wrapit.jig.bench.mirrored_bench import mirrored_handling
