@@ -1,4 +1,4 @@
-"""`wrapit batch` on this machine: one bad piece fails alone, kills lose nothing, and it goes on where it was."""
+"""`wrapit batch` on this machine: a bad piece fails alone, kills lose nothing, it goes on where it was."""
 
 from __future__ import annotations
 

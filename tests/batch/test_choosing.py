@@ -63,7 +63,7 @@ def test_a_config_named_twice_is_made_once(tmp_path: Path, monkeypatch: pytest.M
 
 def test_a_config_that_cannot_be_loaded_is_a_piece_with_its_trouble(tmp_path: Path) -> None:
     bad = tmp_path / "bad.yaml"
-    bad.write_text("siez: 3\n")
+    bad.write_text("drawing: a.svg\nsiez: 3\n")
     good, broken, missing = choose([ring(tmp_path, "a"), bad, tmp_path / "missing.yaml"])
     assert good.trouble is None
     assert "siez" in str(broken.trouble)

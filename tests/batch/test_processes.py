@@ -17,7 +17,7 @@ INTERRUPTED = (
     'print(\'{"error": {"code": "interrupted", "problem": "p", "where": "", "remedy": ""}}\');'
     "raise SystemExit(143)"
 )
-KILLED = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+KILLED = "import os, signal;os.kill(os.getpid(), signal.SIGKILL)"
 FIRST_KILLED = (
     "import pathlib\nif not pathlib.Path({0!r}).exists():\n  pathlib.Path({0!r}).touch()\n  {1}\n{2}"
 )
