@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 
 from tests.batch.catalogues import PATIENCE_S, ROOT, awaited, builds, ledger, ring, run, started, statuses
+from wrapit.batch.cluster import connected
+from wrapit.errors import ConfigError
 from wrapit.pipeline.output.ownership import is_whole, own_report
 
 pytest.importorskip("distributed", reason="needs wrapit[cluster]")
@@ -101,22 +103,30 @@ def test_the_kernel_works_on_a_worker(
     assert (tmp_path / "out" / "solid" / "jig.stl").stat().st_size > 1000
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:{port}", "nonsense://x", "tcp://127.0.0.1:none", ""])
-def test_no_scheduler_is_one_line(tmp_path: Path, address: str) -> None:
+@pytest.mark.parametrize(
+    "address",
+    ["", "nonsense://x:1", "tcp://127.0.0.1", "tcp://127.0.0.1:none", "127.0.0.1:8786", "tcp://:1\n"],
+)
+def test_what_is_no_address_is_refused_at_once(address: str) -> None:
+    with pytest.raises(ConfigError, match="not an address") as refused, connected(address):
+        pass
+    assert "dask scheduler" in refused.value.remedy
+    assert len(str(refused.value).splitlines()) == 1
+
+
+def test_no_scheduler_is_one_line(tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
-    code, _, complaint = run(tmp_path, ring(tmp_path, "a"), "--scheduler", address.format(port=port))
+    code, _, complaint = run(tmp_path, ring(tmp_path, "a"), "--scheduler", f"tcp://127.0.0.1:{port}")
     assert code == 2, complaint
     assert len(complaint.splitlines()) == 1
     assert "no scheduler answers" in complaint
     assert "dask scheduler" in complaint
+    assert not (tmp_path / "out" / "batch.json").exists()
 
 
 def test_without_dask_it_is_said_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    from wrapit.batch.cluster import connected
-    from wrapit.errors import ConfigError
-
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(ConfigError) as refused, connected("tcp://127.0.0.1:1"):
         pass

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
@@ -12,12 +13,17 @@ from typing import Any, Final
 from wrapit.batch.model import Ended, Outcome, Piece, failed
 from wrapit.batch.parcels import arrived, build_parcel, packed, put_here
 from wrapit.errors import ConfigError, WrapItError
+from wrapit.units import printable, shortened
 
 # How long a scheduler may take to answer: one on the other side of the world needs a second or two.
 _ANSWER_S: Final = 10.0
 # Pieces on their way at once, so that the drawings of a large catalogue aren't all in the scheduler's memory:
 # some for each thread, so that none waits; at least so many where no worker is known yet.
 _AHEAD, _LEAST_AHEAD = 3, 32
+# Dask's ways to reach a scheduler over a network; it hangs 20 s at its end over what looks otherwise.
+_ADDRESS: Final = re.compile(r"(tcp|tls|ws|wss)://([\w.-]+|\[[0-9A-Fa-f:.%]+\]):\d{1,5}/?")
+# What helps where no scheduler is.
+_START: Final = "start one with `dask scheduler`; it prints its address, such as tcp://192.168.0.5:8786"
 
 
 def built_by(
@@ -35,7 +41,7 @@ def built_by(
 def _streamed(
     client: Any, pieces: Sequence[Piece], folder: Path, overrides: Sequence[str], ahead: int
 ) -> Generator[Outcome, None, None]:
-    waiting, under_way, arriving = iter(pieces), {}, _dask().as_completed()
+    waiting, under_way, arriving = iter(pieces), {}, _dask().as_completed(loop=client.loop)
     while True:
         for piece in waiting:
             try:
@@ -107,7 +113,9 @@ def connected(address: str) -> Iterator[Any]:
 
     Raises ConfigError where Dask isn't installed or no scheduler answers.
     """
-    option = f"--scheduler {address}"
+    option = f"--scheduler {shortened(printable(address), 80)}"
+    if _ADDRESS.fullmatch(address) is None:
+        raise ConfigError("not an address", option, _START)
     try:
         dask = _dask()
     except ImportError:
@@ -120,8 +128,7 @@ def connected(address: str) -> Iterator[Any]:
             client = dask.Client(address, timeout=_ANSWER_S, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             reason = " ".join(str(error).split())[:120] or type(error).__name__
-            remedy = "start one with `dask scheduler`; it prints its address, such as tcp://192.168.0.5:8786"
-            raise ConfigError(f"no scheduler answers ({reason})", option, remedy) from None
+            raise ConfigError(f"no scheduler answers ({reason})", option, _START) from None
     try:
         yield client
     finally:
