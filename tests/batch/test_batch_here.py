@@ -145,7 +145,7 @@ def test_asked_to_end_it_stops_all_builds(tmp_path: Path, signum: int, code: int
 def test_killed_it_goes_on_where_it_was(tmp_path: Path) -> None:
     configs = [ring(tmp_path, f"piece{number}") for number in range(4)]
     batch = started(tmp_path, *configs, "--jobs", "1")
-    awaited(lambda: (tmp_path / "out" / "piece1" / "report.json").exists(), "the second piece")
+    awaited((tmp_path / "out" / "piece1" / "report.json").exists, "the second piece")
     batch.kill()
     batch.communicate(timeout=30)
     awaited(lambda: not [pid for n in range(4) for pid in builds(None, f"piece{n}")], "the last build's end")
