@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def batch(
     configs: Annotated[
         list[Path],
-        typer.Argument(metavar="CONFIG...", help="Configs, and folders of them.", show_default=False),
+        typer.Argument(metavar="CONFIG", help="Configs, and folders of them.", show_default=False),
     ],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Holds <name>/ for each, and index.html.")
