@@ -171,7 +171,7 @@ def imported() -> dict[str, str]:
             for name in {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"wrapit"}:
                 # Several distributions share a namespace such as `ruamel`.
                 (owner, *others) = [canonicalize_name(each) for each in dict.fromkeys(owners[name])]
-                fitting = [each for each in (owner, *others) if each in required()]
+                fitting = [each for each in (owner, *others) if each in required() | offered()]
                 seen[PART_OF.get(owner, fitting[0] if fitting else owner)] = str(path.relative_to(HOUSE))
     return seen
 
@@ -181,9 +181,16 @@ def required() -> set[str]:
     return {canonicalize_name(Requirement(line).name) for line in project["dependencies"]}
 
 
+def offered() -> set[str]:
+    """What the extras for users add."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = {name: lines for name, lines in project["optional-dependencies"].items() if name != "dev"}
+    return {canonicalize_name(Requirement(line).name) for lines in extras.values() for line in lines}
+
+
 def test_what_is_required_is_imported_and_what_is_imported_is_required() -> None:
     seen = imported()
-    assert {name: seen.get(name) for name in required() ^ seen.keys()} == {}
+    assert {name: seen.get(name) for name in (required() | offered()) ^ seen.keys()} == {}
 
 
 def test_each_requirement_says_why_it_is_there() -> None:

@@ -12,8 +12,9 @@ import threading
 from types import FrameType
 from typing import NoReturn
 
+import wrapit.cli.batch_command
 import wrapit.cli.commands
-import wrapit.cli.studio_command  # noqa: F401  registers what it holds
+import wrapit.cli.studio_command  # noqa: F401  each registers what it holds
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 

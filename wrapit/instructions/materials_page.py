@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import Final, Literal
 
 from wrapit.config import GuideConfig, WireConfig
-from wrapit.instructions.model import Chapter, Difficulty, Page, Step, Tie
+from wrapit.instructions.model import Chapter, Difficulty, Material, Page, Step, Tie
 from wrapit.jig.bench.model import Bench
 from wrapit.materials import METALS
 from wrapit.pages.model import (
@@ -34,11 +34,34 @@ HARD_STEPS: Final = 80
 HARD_CAUTIONS: Final = 6
 
 
-def materials_page(
+def materials_of(
     wires: Sequence[Wire],
     ties: Sequence[Tie],
     ring: JumpRing | None,
     guide: GuideConfig,
+    wire_config: WireConfig,
+    pieces: int,
+) -> tuple[Material, ...]:
+    """The wires' metal by thickness, the thickest first; then that of ties and of the jump ring."""
+    metal, materials = METALS[wire_config.metal], []
+
+    def add(use: Literal["frame", "binding", "ring"], diameter_mm: float, length_mm: float) -> None:
+        total_mm = pieces * length_mm
+        materials.append(Material(use, diameter_mm, total_mm, metal.mass_g(total_mm, diameter_mm)))
+
+    for diameter_mm in sorted({wire.diameter_mm for wire in wires}, reverse=True):
+        add("frame", diameter_mm, sum(w.cut_length_mm for w in wires if w.diameter_mm == diameter_mm))
+    if ties:
+        add("binding", guide.binding_gauge, sum(tie.binding_mm for tie in ties))
+    if ring is not None:
+        add("ring", ring.diameter_mm, ring.length_mm)
+    return tuple(materials)
+
+
+def materials_page(
+    materials: Sequence[Material],
+    wires: Sequence[Wire],
+    ring: JumpRing | None,
     wire_config: WireConfig,
     *,
     pieces: int,
@@ -52,7 +75,7 @@ def materials_page(
         (text("fact-time"), text("time-about", time=Duration(minutes))),
     )
     blocks: tuple[Block, ...] = (
-        _materials(wires, ties, ring, guide, wire_config, pieces),
+        _materials(materials, ring, wire_config, pieces),
         _cut_list(wires, pieces),
         Points(tuple(_tools(benches))),
         Facts(facts),
@@ -79,35 +102,30 @@ def _difficulty(steps: Sequence[Step], amount: int) -> Difficulty:
 
 
 def _materials(
-    wires: Sequence[Wire],
-    ties: Sequence[Tie],
-    ring: JumpRing | None,
-    guide: GuideConfig,
-    wire_config: WireConfig,
-    pieces: int,
+    materials: Sequence[Material], ring: JumpRing | None, wire_config: WireConfig, pieces: int
 ) -> Table:
-    metal, name = METALS[wire_config.metal], text(f"metal-{wire_config.metal.replace(' ', '-')}")
+    name = text(f"metal-{wire_config.metal.replace(' ', '-')}")
     temper = text(f"temper-{wire_config.temper.replace(' ', '-')}")
-    rows = []
 
-    def add(what: Text, diameter_mm: float, length_mm: float) -> None:
-        total_mm = pieces * length_mm
-        mass = Mass(metal.mass_g(total_mm, diameter_mm))
-        thickness = text("thickness", value=Thickness(diameter_mm, wire=True))
-        rows.append((what, thickness, text("length", value=Length(total_mm)), text("mass", value=mass)))
+    def what(material: Material) -> Text:
+        if material.use == "ring" and ring is not None:
+            inside = Thickness(ring.inner_diameter_mm)
+            return text("material-ring", metal=name, inside=inside, count=pieces)
+        if material.use == "binding":
+            return text("material-binding", metal=name)
+        return text("material-frame", metal=name, temper=temper)
 
-    for diameter_mm in sorted({wire.diameter_mm for wire in wires}, reverse=True):
-        length_mm = sum(wire.cut_length_mm for wire in wires if wire.diameter_mm == diameter_mm)
-        add(text("material-frame", metal=name, temper=temper), diameter_mm, length_mm)
-    if ties:
-        binding_mm = sum(tie.binding_mm for tie in ties)
-        add(text("material-binding", metal=name), guide.binding_gauge, binding_mm)
-    if ring is not None:
-        inside = Thickness(ring.inner_diameter_mm)
-        what = text("material-ring", metal=name, inside=inside, count=pieces)
-        add(what, ring.diameter_mm, ring.length_mm)
+    rows = tuple(
+        (
+            what(each),
+            text("thickness", value=Thickness(each.diameter_mm, wire=True)),
+            text("length", value=Length(each.length_mm)),
+            text("mass", value=Mass(each.mass_g)),
+        )
+        for each in materials
+    )
     head = tuple(text(f"materials-head-{each}") for each in ("what", "thickness", "length", "weight"))
-    return Table(text("materials-table"), head, tuple(rows))
+    return Table(text("materials-table"), head, rows)
 
 
 def _cut_list(wires: Sequence[Wire], pieces: int) -> Table:

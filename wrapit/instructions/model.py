@@ -27,6 +27,16 @@ class Tie:
 
 
 @dataclass(frozen=True)
+class Material:
+    """Metal to have at hand, for all that the guide makes (two for a pair)."""
+
+    use: Literal["frame", "binding", "ring"]
+    diameter_mm: float
+    length_mm: float
+    mass_g: float
+
+
+@dataclass(frozen=True)
 class Crossing:
     """Where a wire passes over what already lies in the jig: `over` are numbers, its own for itself."""
 
@@ -112,6 +122,7 @@ class Guide:
     strips: tuple[Strip, ...]
     wires: tuple[Wire, ...]
     shared: Mapping[str, tuple[Shape, ...]]
+    materials: tuple[Material, ...]
     difficulty: Difficulty
     minutes: float
 

@@ -11,7 +11,7 @@ import numpy as np
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.errors import Finding
 from wrapit.geometry.bspline import chain_of
-from wrapit.instructions.materials_page import effort_of, materials_page
+from wrapit.instructions.materials_page import effort_of, materials_of, materials_page
 from wrapit.instructions.model import Chapter, Guide, Page
 from wrapit.instructions.order.binding_order import find_ties
 from wrapit.instructions.order.guide_work import Work
@@ -66,11 +66,11 @@ def plan_guide(
         chapters, scenes = (*chapters, *more), (*scenes, *more_scenes)
         effort = effort[0], 2 * effort[1]
     pieces = 1 if other is None else 2
-    materials = materials_page(
+    materials = materials_of(wires, ties, ring, guide_config, wire_config, pieces)
+    at_hand = materials_page(
+        materials,
         wires,
-        ties,
         ring,
-        guide_config,
         wire_config,
         pieces=pieces,
         benches=first.benches,
@@ -85,12 +85,13 @@ def plan_guide(
         lead=lead,
         cover=cover_figure(whole, text("cover-picture"), caption, ring),
         true_size=true_size_picture(whole, ties),
-        pages=(*_jig_pages(pages), materials),
+        pages=(*_jig_pages(pages), at_hand),
         chapters=tuple(chapters),
         ties=ties,
         strips=strips,
         wires=tuple(wires),
         shared={key: shapes for scene in scenes for key, shapes in scene.shared.items()},
+        materials=materials,
         difficulty=effort[0],
         minutes=effort[1],
     )

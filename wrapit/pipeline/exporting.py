@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from wrapit.config import Config
 from wrapit.decomposition.model import Solution
@@ -12,6 +13,9 @@ from wrapit.errors import Finding
 from wrapit.jig.made import Made
 from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
+
+if TYPE_CHECKING:
+    from wrapit.instructions.model import Guide
 
 
 def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
@@ -46,8 +50,11 @@ def write_guide(
     mirrored: Made | None,
     ring: JumpRing | None,
     config: Config,
-) -> tuple[Finding, ...]:
-    """`guide.html`, `guide.pdf`; the steps are of the first jig that holds wires, and of its mirror image."""
+) -> tuple[Guide, tuple[Finding, ...]]:
+    """`guide.html`, `guide.pdf`, and what they tell.
+
+    The steps are of the first jig that holds wires, and of its mirror image.
+    """
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
     from wrapit.jig.bench.mirrored_bench import mirrored_handling
@@ -72,10 +79,10 @@ def write_guide(
     if "html" in config.outputs:
         write_text(folder / "guide.html", write_page(guide, config.guide))
     if "pdf" not in config.outputs:
-        return ()
+        return guide, ()
     printed, findings = write_print(guide, config.guide)
     (folder / "guide.pdf").write_bytes(printed)
-    return findings
+    return guide, findings
 
 
 def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: int) -> None:

@@ -8,7 +8,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wrapit import __version__
 from wrapit.config import Config, lock_text
@@ -19,6 +19,9 @@ from wrapit.errors import Finding
 from wrapit.pipeline.output.ownership import FORMAT, Artifact
 from wrapit.wires.model import JumpRing, Wire
 from wrapit.wires.springback import Overbent
+
+if TYPE_CHECKING:
+    from wrapit.instructions.model import Guide
 
 # What identifies a build: with these the same, all its files are.
 HEAD_KEYS = ("format", "name", "version", "config_sha256", "drawing_sha256")
@@ -100,6 +103,23 @@ def springback_numbers(bent: Sequence[Overbent]) -> list[dict[str, Any]]:
         }
         for each in bent
     ]
+
+
+def guide_numbers(guide: Guide) -> dict[str, Any]:
+    """The `guide` block: how hard and how long the work is, and the metal for it (for both of a pair)."""
+    return {
+        "difficulty": guide.difficulty,
+        "minutes": round(guide.minutes, 1),
+        "materials": [
+            {
+                "use": each.use,
+                "diameter_mm": _mm(each.diameter_mm),
+                "length_mm": _mm(each.length_mm),
+                "mass_g": round(each.mass_g, 4),
+            }
+            for each in guide.materials
+        ],
+    }
 
 
 def findings_list(findings: Sequence[Finding]) -> list[dict[str, str]]:

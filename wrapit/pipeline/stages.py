@@ -125,9 +125,11 @@ def _export(work: Work, worker: Worker | None, folder: Path) -> None:
         with wires_beside(work, worker, folder):
             write_views(folder, work.wires, jigs[0])
             if {"html", "pdf"} & set(work.config.outputs):
-                work.findings += write_guide(
+                guide, told = write_guide(
                     folder, work.solution, work.wires, jigs, work.mirrored, work.ring, work.config
                 )
+                work.report["guide"] = reports.guide_numbers(guide)
+                work.findings += told
         if work.mirrored is not None:
             with wires_beside(work, worker, folder, MIRRORED):
                 write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)
