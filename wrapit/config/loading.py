@@ -11,10 +11,10 @@ from typing import Any, Final, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from wrapit.config.budgets import DEEPEST
 from wrapit.config.naming import named_after
-from wrapit.config.reading import read_blocks, read_yaml
 from wrapit.config.root import Config
+from wrapit.config.texts.budgets import DEEPEST
+from wrapit.config.texts.reading import read_blocks, read_yaml
 from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened, shown
 
