@@ -10,9 +10,12 @@ import signal
 import sys
 import threading
 from types import FrameType
-from typing import NoReturn
+from typing import Any, NoReturn
 
-import wrapit.cli.commands  # noqa: F401  registers what it holds
+import wrapit.cli.commands
+import wrapit.cli.starting
+import wrapit.cli.telling  # noqa: F401  they register what they hold
+from wrapit.calling import pasted
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 
@@ -136,11 +139,9 @@ def _failed(error: Exception, arguments: list[str]) -> int:
         return _report(error.code, error.problem, error.where, error.remedy, error.exit_code, arguments)
     if hasattr(error, "format_message"):  # what the parser of the command line raises
         context = getattr(error, "ctx", None)
-        command = context.command_path if context is not None else "wrapit"
+        command = pasted(*_subcommand(context), "--help")
         problem = error.format_message().rstrip(".")
-        return _report(
-            "usage", f"{problem[:1].lower()}{problem[1:]}", "", f"see {command} --help", 2, arguments
-        )
+        return _report("usage", f"{problem[:1].lower()}{problem[1:]}", "", f"see {command}", 2, arguments)
     if isinstance(error, OSError):
         reason = (error.strerror or str(error) or type(error).__name__).lower()
         remedy = _DISK.get(error.errno or 0, "check the path, its permissions and the disk")
@@ -151,6 +152,11 @@ def _failed(error: Exception, arguments: list[str]) -> int:
     summary = " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")[-300:]
     remedy = "run again with -vv and report it"
     return _report("unexpected", f"unexpected ({summary})", "", remedy, 1, arguments)
+
+
+def _subcommand(context: Any) -> list[str]:
+    """The names of the commands in front of which the parser stumbled, without the program's own."""
+    return [*_subcommand(context.parent), context.info_name] if context and context.parent else []
 
 
 def _place(error: OSError) -> str:

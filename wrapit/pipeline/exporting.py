@@ -13,6 +13,9 @@ from wrapit.jig.made import Made
 from wrapit.pipeline.textfile import write_text
 from wrapit.wires.model import JumpRing, Wire
 
+ALTERNATIVES = "alternatives.svg"
+"""The picture of the best decompositions side by side."""
+
 
 def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
     """`preview{suffix}.png`, `view{suffix}.png`: a jig with its wires from above and at an angle.
@@ -86,4 +89,4 @@ def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: in
 
     choices = alternatives(drawing, config.decomposition, count)
     shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
-    write_text(folder / "alternatives.svg", alternatives_svg(shown))
+    write_text(folder / ALTERNATIVES, alternatives_svg(shown))
