@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from wrapit import __version__
+from wrapit.calling import PROGRAM
+from wrapit.cli import completing
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
 
 app = typer.Typer(
-    name="wrapit",
-    add_completion=False,
+    name=PROGRAM,
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -30,12 +31,18 @@ Configs = Annotated[
     list[Path],
     typer.Argument(
         metavar="CONFIG...",
+        autocompletion=completing.configs,
         help="The piece's YAML config; several are merged left to right, :pendant and the like come with it.",
     ),
 ]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Change one key, for example size='50 mm'."),
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        autocompletion=completing.overrides,
+        help="Change one key, for example size='50 mm'.",
+    ),
 ]
 DumpConfig = Annotated[
     bool, typer.Option("--dump-config", help="Print the whole config, defaults too, and stop.")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from wrapit.calling import argument, pasted
+from wrapit.cli import completing
 from wrapit.cli.app import (
     AsJson,
     Configs,
@@ -34,7 +35,12 @@ def build(
     ] = None,
     overrides: Overrides = None,
     until: Annotated[
-        str, typer.Option(metavar="STAGE", help="Stop after drawing, decomposition, wires, jig or exports.")
+        str,
+        typer.Option(
+            metavar="STAGE",
+            autocompletion=completing.stages,
+            help="Stop after drawing, decomposition, wires, jig or exports.",
+        ),
     ] = "exports",
     force: Annotated[bool, typer.Option("--force", help="Build even if nothing changed.")] = False,
     alternatives: Annotated[

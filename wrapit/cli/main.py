@@ -15,12 +15,14 @@ from typing import Any, NoReturn
 import wrapit.cli.commands
 import wrapit.cli.starting
 import wrapit.cli.telling  # noqa: F401  they register what they hold
-from wrapit.calling import pasted
+from wrapit.calling import PROGRAM, pasted
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 
 # What shells give a program that Ctrl-C ended: 128 + SIGINT.
 INTERRUPTED = 130
+# Set by a shell that asks for completions; it names no arguments then.
+_COMPLETION = f"_{PROGRAM.upper()}_COMPLETE"
 # System errors whose remedy isn't "check the path".
 _DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
 # Once more after a signal came where Python throws exceptions away: long enough to be out of there.
@@ -106,10 +108,10 @@ def _signal_main(signum: int) -> None:
 
 def _exit_code(arguments: list[str]) -> int:
     try:
-        if not arguments:
-            app(["--help"], standalone_mode=False)
+        if not arguments and _COMPLETION not in os.environ:
+            app(["--help"], prog_name=PROGRAM, standalone_mode=False)
             return 2
-        code = int(app(arguments, standalone_mode=False) or 0)
+        code = int(app(arguments, prog_name=PROGRAM, standalone_mode=False) or 0)
         sys.stdout.flush()
         if code == INTERRUPTED:
             raise KeyboardInterrupt

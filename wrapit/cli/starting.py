@@ -9,12 +9,18 @@ from typing import Annotated
 import typer
 
 from wrapit.calling import argument, pasted
+from wrapit.cli import completing
 from wrapit.cli.app import Overrides, app
 
 
 @app.command()
 def init(
-    drawing: Annotated[Path, typer.Argument(metavar="DRAWING", help="A bitmap, SVG or JSON drawing.")],
+    drawing: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DRAWING", autocompletion=completing.drawings, help="A bitmap, SVG or JSON drawing."
+        ),
+    ],
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Default: the drawing's name with .yaml."),
@@ -42,7 +48,11 @@ def init(
 def coupon(
     configs: Annotated[
         list[Path] | None,
-        typer.Argument(metavar="[CONFIG...]", help="Take wire, kerf and clearance from these configs."),
+        typer.Argument(
+            metavar="[CONFIG...]",
+            autocompletion=completing.configs,
+            help="Take wire, kerf and clearance from these configs.",
+        ),
     ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where to write.")] = Path(
         "build"

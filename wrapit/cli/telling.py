@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+from typing import Annotated
+
+import typer
 
 from wrapit.cli.app import app
 
@@ -31,3 +34,17 @@ def materials() -> None:
         [*gauges, *((f"swg{n}", mm) for n, mm in SWG_MM.items())], key=lambda g: -g[1]
     ):
         print(f"{name:<9}{diameter:>6.2f}   {min_inner_bend_radius_mm(diameter, 'dead soft'):.2f}")
+
+
+@app.command()
+def doctor(as_json: Annotated[bool, typer.Option("--json", help="Print one JSON document.")] = False) -> None:
+    """Say what wrapit finds on this machine, and how to get what is missing; exit code 1 if it can't work."""
+    from wrapit.cli.health import as_document, as_lines, examined, works
+
+    found = list(examined())
+    if as_json:
+        print(json.dumps(as_document(found)))
+    else:
+        for line in as_lines(found):
+            print(line)
+    raise typer.Exit(0 if works(found) else 1)

@@ -82,13 +82,18 @@ def nearest(word: str, known: Sequence[str]) -> str:
     return f"known here: {', '.join(known)}" if known else _all_are_described()
 
 
+def all_keys() -> Iterator[str]:
+    """Every key of the config, dotted; blocks among them."""
+    yield from _all_keys(Config)
+
+
 def _right_key(word: str, blocks: Sequence[str | int]) -> str:
     """The remedy for an unknown key: one nearly like it, or the block where one of this name belongs."""
     block = _block_at(blocks)
     known = list(block.model_fields) if block is not None else []
     if not _close(word, known, _VERY_NEAR):
         same = folded(word)
-        elsewhere = [each for each in _all_keys(Config) if folded(each.rpartition(".")[2]) == same]
+        elsewhere = [each for each in all_keys() if folded(each.rpartition(".")[2]) == same]
         if len(elsewhere) == 1:
             return f"did you mean {elsewhere[0]!r}?"
     return nearest(word, known)

@@ -30,7 +30,7 @@ def is_preset(path: Path) -> bool:
 
 def preset_file(path: Path) -> Path:
     """Where the preset's text is. Raises ConfigError where there is none of that name."""
-    name = str(path).removeprefix(MARK).lower()
+    name = str(path).lstrip(MARK).lower()  # bash, which parts words at colons, may complete to two
     names = preset_names()
     if name in names:
         return FOLDER / f"{name}.yaml"
