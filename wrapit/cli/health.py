@@ -19,6 +19,7 @@ State = Literal["ok", "missing", "broken"]
 
 KERNEL_LIMIT_S: Final = 300
 """Loading takes 3 to 10 s; on a machine whose disk is cold and busy, minutes have been seen."""
+# What a build's own process of the kernel loads.
 _LOAD_KERNEL: Final = """
 import importlib
 from wrapit.pipeline.solids import PRELOAD

@@ -10,7 +10,7 @@ import typer
 
 from wrapit.calling import argument, pasted
 from wrapit.cli import completing
-from wrapit.cli.app import Overrides, app
+from wrapit.cli.app import Overrides, app, say
 
 
 @app.command()
@@ -25,22 +25,35 @@ def init(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Default: the drawing's name with .yaml."),
     ] = None,
+    preset: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            autocompletion=completing.presets,
+            help="Start from what comes with wrapit: pendant, earrings or charm.",
+        ),
+    ] = "",
 ) -> None:
     """Write a commented config for a drawing, with sizes proposed from it."""
-    from wrapit.drawing.proposal import propose_config
     from wrapit.errors import ConfigError
+    from wrapit.pipeline.proposing import propose_makeable
     from wrapit.pipeline.textfile import write_whole
 
-    text = propose_config(drawing, output.parent if output is not None else None)
+    proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
     target = output if output is not None else drawing.with_suffix(".yaml")
     if os.path.lexists(target):
         raise ConfigError("exists already", str(target), "choose another file with -o")
     try:
-        write_whole(target, text)
+        write_whole(target, proposal.text())
     except OSError as error:
         raise ConfigError(
             f"can't be written ({error.strerror})", str(target), "choose another file with -o"
         ) from None
+    for finding in proposal.findings:
+        say(f"{finding.level}: {finding.where}: {finding.message}")
+    if not makeable:
+        remedy = f"see {pasted('check', argument(target))}"
+        say(f"warning: no usual size was found at which a jig holds it; {remedy}")
     print(f"written: {target}; build it with: {pasted('build', argument(target))}")
 
 
