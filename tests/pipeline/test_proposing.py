@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +21,10 @@ from wrapit.pipeline.remedies import held_share
 
 def init(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "wrapit", "init", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False, cwd=cwd)
+    environment = {**os.environ, "PYTHONPATH": str(CONFIGS.parent)}
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=300, check=False, cwd=cwd, env=environment
+    )
 
 
 @pytest.mark.parametrize("name", ["leaf", "bee"])
