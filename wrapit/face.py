@@ -23,14 +23,18 @@ if TYPE_CHECKING:
     from wrapit.wires.model import Wire
 
 
-def load_config(path: str | PathLike[str], overrides: Sequence[str] = ()) -> Config:
-    """The config in a YAML file; `overrides` are `key=value`, as with `--set`.
+Paths = str | PathLike[str] | Sequence[str | PathLike[str]]
+"""A config or several, merged left to right; `:pendant` and the like are presets."""
+
+
+def load_config(path: Paths, overrides: Sequence[str] = ()) -> Config:
+    """The config in a YAML file, or in several; `overrides` are `key=value`, as with `--set`.
 
     Raises ConfigError naming file, line and key.
     """
     from wrapit.config import load_config as load
 
-    return load(Path(path), overrides)
+    return load(_paths(path), overrides)
 
 
 def trace(
@@ -85,7 +89,7 @@ def build_jigs(wires: Sequence[Wire], config: Config | None = None) -> tuple[Jig
 
 
 def build(
-    config: str | PathLike[str],
+    config: Paths,
     folder: str | PathLike[str] | None = None,
     overrides: Sequence[str] = (),
     until: Stage = "exports",
@@ -100,10 +104,10 @@ def build(
     from wrapit.pipeline.build import build as run
 
     target = None if folder is None else Path(folder)
-    return run(Path(config), target, overrides, until, force, alternatives)
+    return run(_paths(config), target, overrides, until, force, alternatives)
 
 
-def check(config: str | PathLike[str], overrides: Sequence[str] = (), *, exact: bool = False) -> Build:
+def check(config: Paths, overrides: Sequence[str] = (), *, exact: bool = False) -> Build:
     """Finds what a build would find and writes nothing, as `wrapit check` does.
 
     With `exact` the kernel also cuts the finished jig with each wire, which takes some seconds a wire. To be
@@ -111,7 +115,11 @@ def check(config: str | PathLike[str], overrides: Sequence[str] = (), *, exact: 
     """
     from wrapit.pipeline.build import check as run
 
-    return run(Path(config), overrides, exact=exact)
+    return run(_paths(config), overrides, exact=exact)
+
+
+def _paths(paths: Paths) -> list[Path]:
+    return [Path(paths)] if isinstance(paths, str | PathLike) else [Path(path) for path in paths]
 
 
 def _usual() -> Config:

@@ -7,25 +7,54 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from typing import Final
 
-_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-_QUANTITY: Final = re.compile(rf"^\s*{_NUMBER}\s*((?:(?<=\s)1/)?[^\d\s.,+_-].*?)?\s*$")
-_GAUGE: Final = re.compile(r"^\s*(?:(awg|swg)\s*[-#]?\s*(\d{1,3})|(\d{1,3})\s*(awg|swg))\s*$", re.IGNORECASE)
+# `40`, `1.5`, `1,5`, `1e3`, `1/2`, `1 1/2`, `1-1/2`.
+_NUMBER: Final = (
+    r"(?P<sign>[-+]?)(?:(?:(?P<whole>\d+)(?:\s+|\s*-\s*))?(?P<parts>\d+)\s*/\s*(?P<of>\d+)"
+    r"|(?P<decimal>(?:\d*,\d+|\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?))"
+)
+_QUANTITY: Final = re.compile(rf"^\s*(?P<number>{_NUMBER})\s*(?P<unit>(?:(?<=\s)1/)?[^\d\s.,+_-].*?)?\s*$")
+# `1,500` is a thousand and a half for some and one and a half for others; `1.500,5` is no better.
+_THOUSANDS: Final = re.compile(r"^\s*[-+]?([1-9]\d{0,2}(?:,\d{3})+|\d{1,3}(?:[.,]\d{3})+[.,]\d+)(?![\d.,])")
+# `18 AWG`, `18ga`, `18-gauge`, `#18`, `No. 18`, `swg18`, `18 gauge SWG`.
+_GAUGE_WORDS: Final = r"(?:awg|swg|b&s|gauge|gage|ga|g|#|no|nr)(?:[\s.-]*(?:awg|swg|b&s|gauge|gage|ga|#))*"
+_GAUGE: Final = re.compile(
+    rf"^\s*(?P<before>{_GAUGE_WORDS})?(?(before)[\s.-]*)(?P<number>\d{{1,3}})"
+    rf"(?:[\s-]*(?P<after>{_GAUGE_WORDS})\.?)?\s*$",
+    re.IGNORECASE,
+)
+_MEANS_GAUGE: Final = re.compile(r"#|(?:\b|\d)(?:awg|swg|gauge|gage|ga)(?:\b|\d)", re.IGNORECASE)
 
 MM_PER: Final = {
     "mm": 1.0,
     "cm": 10.0,
     "m": 1000.0,
     "in": 25.4,
-    "inch": 25.4,
     '"': 25.4,
+    "ft": 304.8,
     "um": 1e-3,
     "µm": 1e-3,
 }
 PER_MM: Final = {"/mm": 1.0, "1/mm": 1.0, "mm^-1": 1.0, "/cm": 0.1, "1/cm": 0.1, "/m": 1e-3, "1/m": 1e-3}
 RADIANS_PER: Final = {"deg": math.pi / 180, "°": math.pi / 180, "degrees": math.pi / 180, "rad": 1.0}
+_SPELLED: Final = {
+    "mm": ("millimeter", "millimetre"),
+    "cm": ("centimeter", "centimetre"),
+    "m": ("meter", "metre"),
+    "um": ("micrometer", "micrometre", "micron"),
+    "in": ("inch", "inche", "''", "″", "”"),
+    "ft": ("foot", "feet", "'", "′", "’"),
+    "deg": ("degree",),
+    "rad": ("radian",),
+    "s": ("second",),
+    "min": ("minute",),
+    "h": ("hour", "hr"),
+}
+"""Other spellings of units, without the `s` of many."""
+_SHORT: Final = {spelled: unit for unit, others in _SPELLED.items() for spelled in others}
 SECONDS_PER: Final = {
     "s": 1.0,
     "sec": 1.0,
@@ -106,13 +135,17 @@ def _quantity(value: object, units: Mapping[str, float], example: str) -> float:
         raise ValueError(f"{value} is not a finite number; {remedy}")
     if isinstance(value, int | float):
         raise UnitMissingError(shown(value), shown(value), example)
-    match = _QUANTITY.match(value) if len(value) <= LONGEST_TEXT else None
-    if match is None:
+    text = _with_plain_fractions(value) if len(value) <= LONGEST_TEXT else ""
+    if _THOUSANDS.match(text):
+        if text.count(",") == 1 and "." not in text:
+            remedy = "write " + " or ".join(repr(text.strip().replace(",", mark)) for mark in (".", ""))
+        raise ValueError(f"{shown(value)} may mean thousands or decimals; {remedy}")
+    match = _QUANTITY.match(text)
+    if match is None or (match["of"] and int(match["of"]) == 0):
         raise ValueError(f"{shown(value)} is not a value with a unit; {remedy}")
-    number, unit = float(match[1]), (match[2] or "").replace(" ", "").lower()
-    unit = unit.replace("\N{GREEK SMALL LETTER MU}", "\N{MICRO SIGN}")  # which look alike
+    number, unit = _number(match), _unit(match["unit"] or "", units)
     if not unit:
-        raise UnitMissingError(shown(value), match[1], example)
+        raise UnitMissingError(shown(value), " ".join(match["number"].split()), example)
     if unit not in units:
         raise ValueError(
             f"unknown unit {shown(unit)}; use one of {', '.join(units)}, for example {example!r}"
@@ -122,11 +155,41 @@ def _quantity(value: object, units: Mapping[str, float], example: str) -> float:
     return number * units[unit]
 
 
-def length_mm(value: object, example: str = "40 mm") -> float:
-    """Millimetres of a length such as `40 mm`, `1.5 in`; ValueError with a hint otherwise.
+def _with_plain_fractions(text: str) -> str:
+    """`1½` as `1 1/2`, and other slashes of fractions as the plain one."""
+    spelled = (
+        f" {unicodedata.normalize('NFKC', each)}"
+        if unicodedata.decomposition(each).startswith("<fraction>")
+        else each
+        for each in text
+    )
+    return "".join(spelled).replace("\N{FRACTION SLASH}", "/").replace("\N{DIVISION SLASH}", "/")
 
-    >>> length_mm("1.5 in")
-    38.1
+
+def _number(match: re.Match[str]) -> float:
+    if match["decimal"]:
+        number = float(match["decimal"].replace(",", "."))
+    else:
+        number = int(match["whole"] or 0) + int(match["parts"]) / int(match["of"])
+    return -number if match["sign"] == "-" else number
+
+
+def _unit(written: str, units: Mapping[str, float]) -> str:
+    """The unit as `units` spells it, where they know it."""
+    unit = written.replace(" ", "").lower().rstrip(".")
+    unit = unit.replace("\N{GREEK SMALL LETTER MU}", "\N{MICRO SIGN}")  # which look alike
+    short = _SHORT.get(unit, _SHORT.get(unit.removesuffix("s"), ""))
+    return short if unit not in units and short in units else unit
+
+
+def length_mm(value: object, example: str = "40 mm") -> float:
+    """Millimetres of a length such as `40 mm`, `1 1/2 inches`, `4,5 cm`; ValueError with a hint otherwise.
+
+    >>> length_mm("1.5 in"), length_mm('1½"'), length_mm("3,81 Centimetres")
+    (38.1, 38.1, 38.1)
+    >>> length_mm("1,500 mm")
+    Traceback (most recent call last):
+    ValueError: '1,500 mm' may mean thousands or decimals; write '1.500 mm' or '1500 mm'
     """
     return round(_quantity(value, MM_PER, example), 9)
 
@@ -151,19 +214,29 @@ def duration_s(value: object, example: str = "120 s") -> float:
 
 
 def gauge_diameter_mm(value: object, example: str = "1.0 mm") -> float:
-    """Diameter in mm of `18 AWG`, `awg18`, `swg18` or `1.0 mm`; ValueError with a hint otherwise.
+    """Diameter in mm of `18 AWG`, `18 gauge`, `#18`, `swg18` or `1.0 mm`; ValueError with a hint otherwise.
 
-    >>> gauge_diameter_mm("swg 18")
-    1.22
+    A gauge that doesn't say which is American.
+
+    >>> gauge_diameter_mm("swg 18"), gauge_diameter_mm("18ga") == gauge_diameter_mm("awg18")
+    (1.22, True)
     """
-    match = _GAUGE.match(value) if isinstance(value, str) else None
-    if match is None:
+    text = value if isinstance(value, str) and len(value) <= LONGEST_TEXT else ""
+    match = _GAUGE.match(text)
+    words = f"{match['before'] or ''} {match['after'] or ''}".lower() if match else ""
+    if match is None or not words.strip():
+        if _MEANS_GAUGE.search(text):
+            raise ValueError(
+                f"{shown(value)} is no wire gauge; write one whole number such as '18 AWG', or '1.0 mm'"
+            )
         return length_mm(value, example)
-    system, number = (match[1] or match[4]).lower(), int(match[2] or match[3])
-    if system == "awg":
+    number = int(match["number"])
+    if "swg" not in words:
         if not 0 <= number <= 40:
             raise ValueError(f"{value!r}: AWG sizes run from 0 to 40; write for example '18 AWG'")
         return awg_diameter_mm(number)
+    if "awg" in words:
+        raise ValueError(f"{shown(value)} names both gauges; write '{number} AWG' or '{number} SWG'")
     if number not in SWG_MM:
         raise ValueError(
             f"{value!r}: known SWG sizes are {', '.join(map(str, SWG_MM))}; or give a diameter in mm"

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from tests.config.test_loading import GOOD, load
 from wrapit.config import load_config
-from wrapit.config.budgets import DEEPEST, MOST_NODES
-from wrapit.config.reading import LARGEST_FILE, read_yaml
+from wrapit.config.texts.budgets import DEEPEST, MOST_NODES
+from wrapit.config.texts.reading import LARGEST_FILE, read_yaml
 from wrapit.errors import ConfigError
 
 FAST_S = 5.0

@@ -12,7 +12,7 @@ from PIL import Image
 from tests.conftest import CONFIGS
 from tests.drawing.generated import Points, render
 from wrapit.config import load_config
-from wrapit.drawing.proposal import propose_config
+from wrapit.drawing.proposal import propose
 from wrapit.errors import DrawingError
 from wrapit.units import awg_diameter_mm
 
@@ -25,7 +25,7 @@ def grid(lines: int) -> list[Points]:
 
 def proposed(folder: Path, curves: list[Points], width_px: float, name: str = "my drawing.png"):
     Image.fromarray(render(curves, width_px, (500, 500))).save(folder / name)
-    (folder / "piece.yaml").write_text(propose_config(folder / name), encoding="utf-8")
+    (folder / "piece.yaml").write_text(propose(folder / name).text(), encoding="utf-8")
     return load_config(folder / "piece.yaml")
 
 
@@ -50,7 +50,7 @@ def test_the_config_names_the_drawing_from_any_folder(tmp_path, place, name):
     Image.fromarray(render(grid(2), 8.0, (500, 500))).save(pictures / name)
     for folder in (configs, pictures):
         config = folder / "piece.yaml"
-        config.write_text(propose_config(pictures / name, folder), encoding="utf-8")
+        config.write_text(propose(pictures / name, folder).text(), encoding="utf-8")
         assert (folder / load_config(config).drawing).samefile(pictures / name)
 
 
@@ -58,7 +58,7 @@ def test_the_config_names_the_drawing_from_any_folder(tmp_path, place, name):
 def test_a_drawing_that_no_config_can_name_is_refused(tmp_path, name):
     shutil.copy(CONFIGS / "leaf.svg", tmp_path / name)
     with pytest.raises(DrawingError, match="no path can have") as refused:
-        propose_config(tmp_path / name)
+        propose(tmp_path / name)
     assert refused.value.remedy == "rename or move the drawing"
 
 
@@ -77,4 +77,4 @@ def test_bolder_strokes_mean_thicker_wire(tmp_path):
 def test_a_drawing_that_is_none_is_refused(tmp_path):
     Image.new("L", (200, 200), 255).save(tmp_path / "blank.png")
     with pytest.raises(DrawingError, match="blank"):
-        propose_config(tmp_path / "blank.png")
+        propose(tmp_path / "blank.png")

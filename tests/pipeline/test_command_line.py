@@ -219,8 +219,9 @@ def test_init_writes_a_config_that_builds(bee: Path) -> None:
 def test_the_command_that_init_proposes_works(bee: Path) -> None:
     drawing = bee.with_name("bee.png").rename(bee.with_name("-a bee's.png"))
     told = wrapit("init", f"./{drawing.name}", cwd=bee.parent).stdout
-    arguments = shlex.split(told.partition("build it with: wrapit ")[2])
-    assert wrapit(*arguments, "--until", "drawing", cwd=bee.parent).returncode == 0
+    command = shlex.split(told.partition("build it with: ")[2])
+    assert command[: len(WRAPIT)] == WRAPIT  # as it was called
+    assert wrapit(*command[len(WRAPIT) :], "--until", "drawing", cwd=bee.parent).returncode == 0
 
 
 def test_alternatives_are_drawn_best_first(bee: Path) -> None:

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from wrapit import __version__
+from wrapit.calling import PROGRAM
+from wrapit.cli import completing
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
 
 app = typer.Typer(
-    name="wrapit",
-    add_completion=False,
+    name=PROGRAM,
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -26,10 +27,25 @@ app = typer.Typer(
     "3 the drawing can't be made as asked.",
 )
 
-ConfigPath = Annotated[Path, typer.Argument(metavar="CONFIG", help="The piece's YAML config.")]
+Configs = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="CONFIG...",
+        autocompletion=completing.configs,
+        help="The piece's YAML config; several are merged left to right, :pendant and the like come with it.",
+    ),
+]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Change one key, for example size='50 mm'."),
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        autocompletion=completing.overrides,
+        help="Change one key, for example size='50 mm'.",
+    ),
+]
+DumpConfig = Annotated[
+    bool, typer.Option("--dump-config", help="Print the whole config, defaults too, and stop.")
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the report as one JSON document.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
@@ -56,6 +72,17 @@ def _options(
     pass
 
 
+def dump(configs: list[Path], overrides: list[str] | None, as_json: bool) -> None:
+    """Prints the effective config, as `config.lock.yaml` has it; raises ConfigError."""
+    from wrapit.config import load_config, lock_text
+
+    config = load_config(configs, overrides or ())
+    if as_json:
+        print(json.dumps(config.model_dump(mode="json", exclude_none=True)))
+    else:
+        print(lock_text(config), end="")
+
+
 def with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) -> Build:
     """What `run` returns; in a terminal, the stage that it says it is at is shown meanwhile."""
     if quiet or not sys.stderr.isatty():
@@ -66,8 +93,11 @@ def with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) ->
         return run(lambda stage: status.update(f"{stage} …"))
 
 
-def show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
-    """Prints what a build made: the report as one document, or its summary and findings."""
+def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: str = "") -> None:
+    """Prints what a build made: the report as one document, or its summary and findings.
+
+    `take` is the command that builds one of its alternatives, where there are some.
+    """
     if as_json:
         print(json.dumps({**result.report, "timings_s": result.timings_s}, allow_nan=False))
         return
@@ -75,7 +105,7 @@ def show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
         return
     from wrapit.pipeline.summary import finding_lines, summary_lines
 
-    for line in summary_lines(result):
+    for line in summary_lines(result, take):
         print(line)
     sys.stdout.flush()
     for line in finding_lines(result, every=verbose > 0):

@@ -1,16 +1,26 @@
-"""The commands, each a thin wrapper: everything heavy is imported inside them."""
+"""`build` and `check`: a piece from its config."""
 
 from __future__ import annotations
 
-import json
-import os
-import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from wrapit.cli.app import AsJson, ConfigPath, Overrides, Quiet, Verbose, app, show, with_progress
+from wrapit.calling import argument, pasted
+from wrapit.cli import completing
+from wrapit.cli.app import (
+    AsJson,
+    Configs,
+    DumpConfig,
+    Overrides,
+    Quiet,
+    Verbose,
+    app,
+    dump,
+    show,
+    with_progress,
+)
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
@@ -19,38 +29,60 @@ if TYPE_CHECKING:
 
 @app.command()
 def build(
-    config: ConfigPath,
+    configs: Configs,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Default: build/<name>.")
     ] = None,
     overrides: Overrides = None,
     until: Annotated[
-        str, typer.Option(metavar="STAGE", help="Stop after drawing, decomposition, wires, jig or exports.")
+        str,
+        typer.Option(
+            metavar="STAGE",
+            autocompletion=completing.stages,
+            help="Stop after drawing, decomposition, wires, jig or exports.",
+        ),
     ] = "exports",
     force: Annotated[bool, typer.Option("--force", help="Build even if nothing changed.")] = False,
     alternatives: Annotated[
         int,
         typer.Option(min=0, max=12, metavar="K", help="Also draw the K best ways to divide it into wires."),
     ] = 0,
+    choose: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Take the N-th best of them: --set decomposition.choice=N."),
+    ] = None,
     depfile: Annotated[
         Path | None,
         typer.Option("-MF", "--depfile", metavar="FILE", help="Write what the build depends on, for make."),
     ] = None,
+    dump_config: DumpConfig = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = 0,
 ) -> None:
     """Build a piece: drawing, wires, jig and guide."""
+    chosen = [*(overrides or ()), *([f"decomposition.choice={choose}"] if choose is not None else [])]
+    if dump_config:
+        dump(configs, chosen, as_json)
+        return
     from wrapit.pipeline.build import build as run
 
     stage = _stage(until)
     result = with_progress(
-        lambda progress: run(config, output, overrides or (), stage, force, alternatives, progress),
+        lambda progress: run(configs, output, chosen, stage, force, alternatives, progress),
         quiet or as_json,
     )
     if depfile is not None:
         _write_depfile(depfile, result)
-    show(result, as_json, quiet, verbose)
+    take = _command(configs, output, overrides, "--choose", "2") if alternatives > 1 else ""
+    show(result, as_json, quiet, verbose, take)
+
+
+def _command(configs: list[Path], output: Path | None, overrides: list[str] | None, *options: str) -> str:
+    """The build once more, with options of another kind."""
+    where = ["-o", str(output)] if output is not None else []
+    changes = [word for override in overrides or () for word in ("--set", override)]
+    return pasted("build", *map(argument, configs), *where, *changes, *options)
 
 
 def _write_depfile(path: Path, result: Build) -> None:
@@ -64,36 +96,10 @@ def _write_depfile(path: Path, result: Build) -> None:
 
 
 @app.command()
-def init(
-    drawing: Annotated[Path, typer.Argument(metavar="DRAWING", help="A bitmap, SVG or JSON drawing.")],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="Default: the drawing's name with .yaml."),
-    ] = None,
-) -> None:
-    """Write a commented config for a drawing, with sizes proposed from it."""
-    from wrapit.drawing.proposal import propose_config
-    from wrapit.errors import ConfigError
-    from wrapit.pipeline.textfile import write_whole
-
-    text = propose_config(drawing, output.parent if output is not None else None)
-    target = output if output is not None else drawing.with_suffix(".yaml")
-    if os.path.lexists(target):
-        raise ConfigError("exists already", str(target), "choose another file with -o")
-    try:
-        write_whole(target, text)
-    except OSError as error:
-        raise ConfigError(
-            f"can't be written ({error.strerror})", str(target), "choose another file with -o"
-        ) from None
-    argument = shlex.quote(f"./{target}" if str(target).startswith("-") else str(target))
-    print(f"written: {target}; build it with: wrapit build {argument}")
-
-
-@app.command()
 def check(
-    config: ConfigPath,
+    configs: Configs,
     overrides: Overrides = None,
+    dump_config: DumpConfig = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = 0,
@@ -103,59 +109,13 @@ def check(
     ] = False,
 ) -> None:
     """Say whether a piece can be made, and what to change; writes nothing."""
+    if dump_config:
+        dump(configs, overrides, as_json)
+        return
     from wrapit.pipeline.build import check as run
 
-    result = with_progress(lambda progress: run(config, overrides or (), progress, exact), quiet or as_json)
+    result = with_progress(lambda progress: run(configs, overrides or (), progress, exact), quiet or as_json)
     show(result, as_json, quiet, verbose)
-
-
-@app.command()
-def coupon(
-    config: Annotated[
-        Path | None,
-        typer.Argument(metavar="[CONFIG]", help="Take wire, kerf and clearance from this config."),
-    ] = None,
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where to write.")] = Path(
-        "build"
-    ),
-    overrides: Overrides = None,
-) -> None:
-    """Write test pieces: a kerf coupon to cut, a clearance coupon to print."""
-    from wrapit.config import load_config
-    from wrapit.config.loading import default_config
-    from wrapit.pipeline.coupon_files import write_coupons
-
-    chosen = load_config(config, overrides or ()) if config else default_config(overrides or ())
-    cut, printed = write_coupons(chosen, output)
-    print(f"cut {cut}: the slot that takes the wire without play tells plate.kerf,")
-    print("    the pocket that takes the key tells plate.fit")
-    print(f"print {printed}: the narrowest channel that takes the wire easily tells jig.clearance")
-
-
-@app.command()
-def schema() -> None:
-    """Print the JSON schema of the config."""
-    from wrapit.config import schema as config_schema
-
-    print(json.dumps(config_schema(), indent=1, ensure_ascii=False))
-
-
-@app.command()
-def materials() -> None:
-    """Print the metals and wire gauges that wrapit knows."""
-    from wrapit.materials import METALS, min_inner_bend_radius_mm
-    from wrapit.units import SWG_MM, awg_diameter_mm
-
-    print(f"{'metal':<18}{'density g/cm³':>14}{'E GPa':>8}   proof stress MPa (dead soft, half hard, hard)")
-    for metal in METALS.values():
-        stresses = ", ".join(f"{stress:g}" for stress in metal.proof_mpa.values())
-        print(f"{metal.name:<18}{metal.density_g_per_cm3:>14.2f}{metal.young_gpa:>8.0f}   {stresses}")
-    print(f"\n{'gauge':<9}{'mm':>6}   tightest inner bend of dead-soft wire, mm")
-    gauges = [(f"{n} AWG", awg_diameter_mm(n)) for n in (*range(12, 22, 2), 21, *range(22, 32, 2))]
-    for name, diameter in sorted(
-        [*gauges, *((f"swg{n}", mm) for n, mm in SWG_MM.items())], key=lambda g: -g[1]
-    ):
-        print(f"{name:<9}{diameter:>6.2f}   {min_inner_bend_radius_mm(diameter, 'dead soft'):.2f}")
 
 
 def _stage(name: str) -> Stage:

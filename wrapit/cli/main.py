@@ -10,16 +10,21 @@ import signal
 import sys
 import threading
 from types import FrameType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import wrapit.cli.batch_command
 import wrapit.cli.commands
-import wrapit.cli.studio_command  # noqa: F401  each registers what it holds
+import wrapit.cli.starting
+import wrapit.cli.studio_command
+import wrapit.cli.telling  # noqa: F401  they register what they hold
+from wrapit.calling import PROGRAM, pasted
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 
 # What shells give a program that Ctrl-C ended: 128 + SIGINT.
 INTERRUPTED = 130
+# Set by a shell that asks for completions; it names no arguments then.
+_COMPLETION = f"_{PROGRAM.upper()}_COMPLETE"
 # System errors whose remedy isn't "check the path".
 _DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
 # Once more after a signal came where Python throws exceptions away: long enough to be out of there.
@@ -105,10 +110,10 @@ def _signal_main(signum: int) -> None:
 
 def _exit_code(arguments: list[str]) -> int:
     try:
-        if not arguments:
-            app(["--help"], standalone_mode=False)
+        if not arguments and _COMPLETION not in os.environ:
+            app(["--help"], prog_name=PROGRAM, standalone_mode=False)
             return 2
-        code = int(app(arguments, standalone_mode=False) or 0)
+        code = int(app(arguments, prog_name=PROGRAM, standalone_mode=False) or 0)
         sys.stdout.flush()
         if code == INTERRUPTED:
             raise KeyboardInterrupt
@@ -138,11 +143,9 @@ def _failed(error: Exception, arguments: list[str]) -> int:
         return _report(error.code, error.problem, error.where, error.remedy, error.exit_code, arguments)
     if hasattr(error, "format_message"):  # what the parser of the command line raises
         context = getattr(error, "ctx", None)
-        command = context.command_path if context is not None else "wrapit"
+        command = pasted(*_subcommand(context), "--help")
         problem = error.format_message().rstrip(".")
-        return _report(
-            "usage", f"{problem[:1].lower()}{problem[1:]}", "", f"see {command} --help", 2, arguments
-        )
+        return _report("usage", f"{problem[:1].lower()}{problem[1:]}", "", f"see {command}", 2, arguments)
     if isinstance(error, OSError):
         reason = (error.strerror or str(error) or type(error).__name__).lower()
         remedy = _DISK.get(error.errno or 0, "check the path, its permissions and the disk")
@@ -153,6 +156,11 @@ def _failed(error: Exception, arguments: list[str]) -> int:
     summary = " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")[-300:]
     remedy = "run again with -vv and report it"
     return _report("unexpected", f"unexpected ({summary})", "", remedy, 1, arguments)
+
+
+def _subcommand(context: Any) -> list[str]:
+    """The names of the commands in front of which the parser stumbled, without the program's own."""
+    return [*_subcommand(context.parent), context.info_name] if context and context.parent else []
 
 
 def _place(error: OSError) -> str:

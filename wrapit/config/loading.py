@@ -1,81 +1,122 @@
-"""Reads a YAML config; every mistake is named with file, line, column and a remedy."""
+"""Reads YAML configs; every mistake is named with file, line, column and a remedy."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import UnionType
-from typing import Any, Final, get_args
+from typing import Any, Final
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
-from wrapit.config.budgets import DEEPEST
+from wrapit.calling import pasted
 from wrapit.config.naming import named_after
-from wrapit.config.reading import read_blocks, read_yaml
 from wrapit.config.root import Config
+from wrapit.config.texts.budgets import DEEPEST
+from wrapit.config.texts.mistakes import explain, user_keys
+from wrapit.config.texts.reading import read_yaml
+from wrapit.config.texts.written import Written, merged, place_of, read_written, seen_from
 from wrapit.errors import ConfigError
-from wrapit.units import printable, shortened, shown
+from wrapit.units import printable, shortened
 
 LONGEST_OVERRIDE: Final = 10_000
 """Letters; the longest that makes sense is a list of some hundred constraints."""
 
-_EXPECTED: Final = {
-    "model_type": "a block of keys",
-    "model_attributes_type": "a block of keys",
-    "dict_type": "a block of keys",
-    "list_type": "a list",
-    "tuple_type": "a list",
-    "string_type": "a text",
-    "bool_type": "true or false",
-    "bool_parsing": "true or false",
-    "int_type": "a whole number",
-    "int_parsing": "a whole number",
-    "int_from_float": "a whole number",
-    "float_type": "a number",
-    "float_parsing": "a number",
-}
-"""What a value should have been, by the kind of mistake: the library's own words are Python's."""
+
+@dataclass(frozen=True)
+class Loaded:
+    """A config, the file that the piece is named after, and all files that it was read from.
+
+    `folder` is where the config's `drawing` is looked for.
+    """
+
+    config: Config
+    named_by: Path
+    folder: Path
+    sources: tuple[Path, ...]
+
+    @property
+    def drawing_path(self) -> Path:
+        return self.folder / self.config.drawing
 
 
-def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
+def load_config(path: Path | Sequence[Path], overrides: Sequence[str] = ()) -> Config:
     """The config in `path`, with `--set` overrides such as `wire.gauge=20 AWG` applied.
 
-    Where it has no name it gets that of its file, made safe (`naming.named_after`).
+    Several configs are merged left to right; `:pendant` and the like are presets. Where none says a name
+    it gets that of the last file, made safe (`naming.named_after`).
 
     Raises ConfigError with `file:line:column key` for the first mistake.
     """
-    written = read_blocks(path)
-    data = _plain(written)
+    return load(path, overrides).config
+
+
+def load(path: Path | Sequence[Path], overrides: Sequence[str] = ()) -> Loaded:
+    """As `load_config`, with the files. A drawing is relative to the file that names it, one that an
+    override or no file names to the last of the files; raises what `load_config` raises."""
+    written = _read(path)
+    files = [each for each in written if not each.preset]
+    folder = files[-1].path.parent if files else Path()
+    data = _merged(written, folder, overrides)
+    if not files and "drawing" not in data:
+        raise ConfigError(
+            "a preset has no drawing of its own",
+            " ".join(printable(str(each.path)) for each in written),
+            "give your config behind it, or --set drawing=bee.png",
+        )
+    config = _validated(data, written, overrides)
+    named_by = files[-1].path if files else Path(config.drawing)
+    if not config.name:
+        config = config.model_copy(update={"name": named_after(named_by)[0]})
+    return Loaded(config, named_by, folder, tuple(each.path for each in files))
+
+
+def config_without_drawing(path: Path | Sequence[Path] = (), overrides: Sequence[str] = ()) -> Config:
+    """The config, for what needs no drawing: none has to be named, nor any config at all."""
+    written = _read(path) if path else []
+    return _validated({"drawing": "none", **_merged(written, Path(), overrides)}, written, overrides)
+
+
+def _read(path: Path | Sequence[Path]) -> list[Written]:
+    paths = [path] if isinstance(path, Path) else list(path)
+    if not paths:
+        raise ConfigError("no config is given", remedy="give the path of a .yaml file")
+    return [read_written(each) for each in paths]
+
+
+def _merged(written: Sequence[Written], folder: Path, overrides: Sequence[str]) -> dict[str, Any]:
+    blocks = [_plain(each.blocks) for each in written]
+    for each, block in zip(written, blocks, strict=True):
+        if not each.preset and isinstance(block.get("drawing"), str) and block["drawing"].strip():
+            block["drawing"] = seen_from(folder, block["drawing"], each.path.parent)
+    data = merged(blocks)
     for override in overrides:
         _apply(data, override)
-    config = _validated(data, _Source(written, path, overrides))
-    return config if config.name else config.model_copy(update={"name": named_after(path)[0]})
+    return data
 
 
-def default_config(overrides: Sequence[str] = ()) -> Config:
-    """The defaults with overrides, for what needs no drawing; raises ConfigError as `load_config` does."""
-    data: dict[str, Any] = {"drawing": "none"}
-    for override in overrides:
-        _apply(data, override)
-    return _validated(data, _Source({}, Path("config"), overrides))
-
-
-@dataclass(frozen=True)
-class _Source:
-    """Where the data is from: `written` is the file's, and knows its lines."""
-
-    written: dict[str, Any]
-    path: Path
-    overrides: Sequence[str]
-
-
-def _validated(data: dict[str, Any], source: _Source) -> Config:
+def _validated(data: dict[str, Any], written: Sequence[Written], overrides: Sequence[str]) -> Config:
     try:
         return Config.model_validate(data)
     except ValidationError as error:
-        raise _first_mistake(error, data, source) from None
+        raise _first_mistake(error, data, written, overrides) from None
+
+
+def _first_mistake(
+    error: ValidationError, data: dict[str, Any], written: Sequence[Written], overrides: Sequence[str]
+) -> ConfigError:
+    mistake, *others = error.errors(include_url=False)
+    if mistake["type"] == "missing":  # a key that is mistyped explains the one that is missing
+        mistyped = (each for each in others if each["type"] == "extra_forbidden")
+        mistake = next((each for each in mistyped if each["loc"][:-1] == mistake["loc"][:-1]), mistake)
+    keys = user_keys(mistake["loc"], data)
+    dotted = ".".join(map(str, keys))
+    problem, remedy = explain(mistake, keys)
+    for override in reversed(overrides):
+        if f"{dotted}.".startswith(f"{override.partition('=')[0]}."):
+            return ConfigError(problem, _set(override), remedy)
+    place = f"{place_of(keys, written)} {shortened(printable(dotted), 80)}"
+    return ConfigError(problem, place.rstrip(), remedy)
 
 
 def _apply(data: dict[str, Any], override: str) -> None:
@@ -84,13 +125,13 @@ def _apply(data: dict[str, Any], override: str) -> None:
     if not equals or not all(blocks) or not key.isprintable():
         raise ConfigError("not of the form key=value", where, "write for example --set wire.gauge='20 AWG'")
     if len(override) > LONGEST_OVERRIDE or len(blocks) > DEEPEST:
-        raise ConfigError("this is too long or too deep", where, "see `wrapit schema` for the keys")
+        raise ConfigError("this is too long or too deep", where, f"see `{pasted('schema')}` for the keys")
     inner: Any = data
     for name in blocks[:-1]:
         inner = inner.setdefault(name, {}) if isinstance(inner, dict) else inner
     if not isinstance(inner, dict):
         raise ConfigError(
-            f"{'.'.join(blocks[:-1])} is no block of keys", where, "see `wrapit schema` for the keys"
+            f"{'.'.join(blocks[:-1])} is no block of keys", where, f"see `{pasted('schema')}` for the keys"
         )
     try:
         inner[blocks[-1]] = _plain(read_yaml(text, where))
@@ -116,82 +157,3 @@ def _plain(value: Any) -> Any:
         if isinstance(value, kind):
             return kind(value)
     return value if value is None else str(value)
-
-
-def _first_mistake(error: ValidationError, data: dict[str, Any], source: _Source) -> ConfigError:
-    mistake = error.errors(include_url=False)[0]
-    keys = _user_keys(mistake["loc"], data)
-    dotted = ".".join(map(str, keys))
-    problem, remedy = _explain(mistake, keys)
-    for override in reversed(source.overrides):
-        if f"{dotted}.".startswith(f"{override.partition('=')[0]}."):
-            return ConfigError(problem, _set(override), remedy)
-    place = f"{_position(source.written, keys, source.path)} {shortened(printable(dotted), 80)}"
-    return ConfigError(problem, place.rstrip(), remedy)
-
-
-def _user_keys(loc: Sequence[str | int], data: Any) -> list[str | int]:
-    """The part of pydantic's location that the user wrote (it also names union members)."""
-    keys: list[str | int] = []
-    inner = data
-    for index, key in enumerate(loc):
-        indexed = isinstance(inner, list) and isinstance(key, int) and key < len(inner)
-        if indexed or (isinstance(inner, dict) and key in inner):
-            inner = inner[key]
-        elif not (isinstance(inner, dict) and index == len(loc) - 1):
-            continue
-        keys.append(key)
-    return keys
-
-
-def _position(data: Any, keys: Sequence[str | int], path: Path) -> str:
-    line, column = 0, 0
-    inner = data
-    for key in keys:
-        marks = getattr(inner, "lc", None)
-        if marks is None or not marks.data or key not in marks.data:
-            break
-        line, column = marks.data[key][:2]
-        inner = inner[key]
-    return f"{printable(str(path))}:{line + 1}:{column + 1}"
-
-
-def _explain(mistake: Mapping[str, Any], keys: Sequence[str | int]) -> tuple[str, str]:
-    kind, context = mistake["type"], mistake.get("ctx", {})
-    if kind == "extra_forbidden":
-        return "unknown key", _nearest(str(keys[-1])[:80], _known_keys(keys[:-1]))
-    if kind == "missing":
-        return "this key is missing", "add it; `wrapit schema` describes every key"
-    if kind == "value_error":
-        problem, _, remedy = str(context["error"]).partition("; ")
-        return problem, remedy
-    if kind in ("literal_error", "union_tag_invalid"):
-        given, expected = mistake["input"], str(context.get("expected") or context.get("expected_tags"))
-        names = [name.strip(" '") for name in expected.replace(" or ", ", ").split(",")]
-        return f"{shown(given)} is not one of {expected}", _nearest(shown(given), names)
-    if kind in ("too_long", "too_short"):
-        count, bound = context["actual_length"], context.get("max_length", context.get("min_length"))
-        bound_is = "most" if kind == "too_long" else "least"
-        return f"a list of {count} is too {kind[4:]}", f"give at {bound_is} {bound}"
-    text = f"expected {_EXPECTED[kind]}" if kind in _EXPECTED else str(mistake["msg"])
-    problem = f"{text[0].lower()}{text[1:]}, but got {shown(mistake['input'])}"
-    return problem, "`wrapit schema` describes every key"
-
-
-def _known_keys(blocks: Sequence[str | int]) -> list[str]:
-    model: type[BaseModel] = Config
-    for key in blocks:
-        annotation = model.model_fields[str(key)].annotation if str(key) in model.model_fields else None
-        if isinstance(annotation, UnionType):  # a block that may be left out
-            annotation = next((each for each in get_args(annotation) if each is not type(None)), None)
-        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
-            return []
-        model = annotation
-    return list(model.model_fields)
-
-
-def _nearest(word: str, known: Sequence[str]) -> str:
-    close = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
-    if close:
-        return f"did you mean {close[0]!r}?"
-    return f"known here: {', '.join(known)}" if known else "`wrapit schema` describes every key"

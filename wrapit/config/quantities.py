@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Final, Literal
 
 from wrapit import units
+from wrapit.config.choices import spelled
 from wrapit.config.ranges import Mark, NumberRange, QuantityRange, Unit
 from wrapit.units import shown
 
@@ -107,7 +108,9 @@ class PlaceRange(Mark):
         return self.point.write(value) if isinstance(value, tuple) else value
 
     def describe(self) -> dict[str, Any]:
-        return {"anyOf": [{"const": "top"}, self.junction.describe(), self.point.describe()]}
+        return {
+            "anyOf": [{"const": "top"}, spelled(["top"]), self.junction.describe(), self.point.describe()]
+        }
 
 
 NUMBER_IN_DRAWING: Final = whole(0, 99_999)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from wrapit.config.decomposition import ConstraintConfig, DecompositionConfig, SolverName
+from wrapit.config.decomposition import MOST_CHOICES, ConstraintConfig, DecompositionConfig, SolverName
 from wrapit.decomposition.bridges import with_bridges
 from wrapit.decomposition.constraints import rules_of
 from wrapit.decomposition.doubling import doubled_back
@@ -26,7 +26,7 @@ from wrapit.decomposition.solvers import (
 from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
-from wrapit.errors import DecompositionError, Finding
+from wrapit.errors import ConfigError, DecompositionError, Finding
 
 # An energy that exceeds its lower bound by less than this share meets it.
 _CLOSE = 1e-9
@@ -40,9 +40,11 @@ def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, 
     `config.bridges` the solution's drawing has the bridges on offer appended to its segments.
 
     Raises DecompositionError for a drawing without segments and for constraints that can't be met
-    together; ConfigError for a constraint that names what the drawing doesn't have, and for what the
-    solver can't heed.
+    together; ConfigError for a constraint that names what the drawing doesn't have, for what the
+    solver can't heed, and for a `config.choice` beyond those that there are.
     """
+    if config.choice > 1:
+        return _chosen(drawing, config)
     drawing, problem = _posed(drawing, config)
     rng = np.random.default_rng(config.seed)
     solver = SOLVERS[config.solver]
@@ -62,6 +64,29 @@ def alternatives(drawing: Drawing, config: DecompositionConfig, k: int) -> tuple
     but those before is better. Raises as `decompose` does, and ConfigError where the
     solver finds none.
     """
+    solver, drawing, problem, answers = _best(drawing, config, k)
+    return tuple(_solution(drawing, problem, answer, config, solver) for answer in answers)
+
+
+def _chosen(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
+    """The alternative that `config.choice` names, measured against the bound that the best one meets."""
+    solver, drawing, problem, answers = _best(drawing, config, min(config.choice, MOST_CHOICES))
+    if len(answers) < config.choice:
+        there_are = "the best of many are" if len(answers) == MOST_CHOICES else "this drawing has"
+        raise ConfigError(
+            f"there is no alternative {config.choice}: {there_are} {len(answers)}",
+            "decomposition.choice",
+            f"choose between 1 and {len(answers)}" if len(answers) > 1 else "take it away",
+        )
+    answer = replace(answers[-1], lower_bound=answers[0].lower_bound)
+    solution = _solution(drawing, problem, answer, config, solver)
+    return solution, findings_of(problem.graph, solution)
+
+
+def _best(
+    drawing: Drawing, config: DecompositionConfig, k: int
+) -> tuple[SolverName, Drawing, Problem, list[Answer]]:
+    """The best answers, with the problem and the solver that they are of; raises as `alternatives` does."""
     solver, another = source_of_alternatives(config)
     drawing, problem = _posed(drawing, config)
     answers = best_answers(
@@ -72,11 +97,7 @@ def alternatives(drawing: Drawing, config: DecompositionConfig, k: int) -> tuple
     )
     if not answers or not problem.is_allowed(answers[0].mate):
         raise _refusal(problem, config)
-    return tuple(
-        _solution(drawing, problem, answer, config, solver)
-        for answer in answers
-        if problem.is_allowed(answer.mate)
-    )
+    return solver, drawing, problem, [answer for answer in answers if problem.is_allowed(answer.mate)]
 
 
 def _posed(drawing: Drawing, config: DecompositionConfig) -> tuple[Drawing, Problem]:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from wrapit.config import load_config, named_after
+from wrapit.config import named_after
+from wrapit.config.loading import load
 from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
 from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renamed_beside_others, staged
@@ -35,7 +36,7 @@ class Build:
 
 
 def build(
-    config_path: Path,
+    config_path: Path | Sequence[Path],
     target: Path | None = None,
     overrides: Sequence[str] = (),
     until: Stage = "exports",
@@ -46,15 +47,15 @@ def build(
 ) -> Build:
     """Builds a piece into `target` (default `build/<name>`), unless what is there is already the same.
 
+    Several configs are merged left to right.
     `progress` is told before each stage, `after` after it. With `alternatives`, so many of the best
     decompositions are also drawn side by side. A folder that holds a fuller build of the same input keeps it.
     Files of somebody else stay as they are.
 
     Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
     """
-    work = _start(config_path, overrides, until, progress, alternatives)
+    work, sources = _start(config_path, overrides, until, progress, alternatives)
     work.after = after
-    sources = (config_path, work.drawing_path)
     target = target if target is not None else Path("build") / work.config.name
     folder = followed(target)
     prepare(folder)
@@ -76,7 +77,7 @@ def build(
 
 
 def check(
-    config_path: Path,
+    config_path: Path | Sequence[Path],
     overrides: Sequence[str] = (),
     progress: Progress = lambda stage: None,
     exact: bool = False,
@@ -86,28 +87,33 @@ def check(
     With `exact` the kernel also cuts the finished jig with each wire and each channel: the report's jig has
     `interference_mm3`, which is 0. Raises what `build` raises, KernelError where that is more than nothing.
     """
-    work = _start(config_path, overrides, "exports", progress)
+    work, sources = _start(config_path, overrides, "exports", progress)
     work.exact = exact
     with tempfile.TemporaryDirectory(prefix="wrapit-check-") as folder:
         _run(work, Path(folder))
     work.report["findings"] = reports.findings_list(work.findings)
-    return Build(work.report, work.timings_s, None, (config_path, work.drawing_path), "exports")
+    return Build(work.report, work.timings_s, None, sources, "exports")
 
 
 def _start(
-    config_path: Path, overrides: Sequence[str], until: Stage, progress: Progress, alternatives: int = 0
-) -> Work:
-    config = load_config(config_path, overrides)
-    drawing_path = config_path.parent / config.drawing
+    config_path: Path | Sequence[Path],
+    overrides: Sequence[str],
+    until: Stage,
+    progress: Progress,
+    alternatives: int = 0,
+) -> tuple[Work, tuple[Path, ...]]:
+    """What there is before the first stage, and the files that it was read from."""
+    loaded = load(config_path, overrides)
+    config, drawing_path = loaded.config, loaded.drawing_path
     if not drawing_path.is_file():
         raise DrawingError(
             "no such drawing" if not drawing_path.exists() else "the drawing is not a file",
             str(drawing_path),
-            f"`drawing:` in {config_path.name} is relative to the config",
+            f"`drawing:` in {loaded.named_by.name} is relative to the config",
         )
     work = Work(config, drawing_path, until, progress, alternatives)
     work.report.update(reports.head(config, sha256(drawing_path)), until=until, alternatives=alternatives)
-    named, renamed = named_after(config_path)
+    named, renamed = named_after(loaded.named_by)
     if renamed and named == config.name:
         work.findings.append(
             Finding(
@@ -118,7 +124,7 @@ def _start(
                 "give it a `name:`",
             )
         )
-    return work
+    return work, (*loaded.sources, drawing_path)
 
 
 def _run(work: Work, folder: Path) -> None:

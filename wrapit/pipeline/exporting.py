@@ -17,6 +17,9 @@ from wrapit.wires.model import JumpRing, Wire
 if TYPE_CHECKING:
     from wrapit.instructions.model import Guide
 
+ALTERNATIVES = "alternatives.svg"
+"""The picture of the best decompositions side by side."""
+
 
 def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
     """`preview{suffix}.png`, `view{suffix}.png`: a jig with its wires from above and at an angle.
@@ -93,4 +96,4 @@ def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: in
 
     choices = alternatives(drawing, config.decomposition, count)
     shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
-    write_text(folder / "alternatives.svg", alternatives_svg(shown))
+    write_text(folder / ALTERNATIVES, alternatives_svg(shown))

@@ -7,13 +7,17 @@ from collections.abc import Iterator
 from typing import Any
 
 from wrapit.pipeline.build import Build
+from wrapit.pipeline.exporting import ALTERNATIVES
 
 # In the order in which they are told.
 LEVELS = ("error", "warning", "note")
 
 
-def summary_lines(result: Build) -> Iterator[str]:
-    """A few lines: the drawing, the wires with their cut lengths, the jig, and where the files are."""
+def summary_lines(result: Build, take: str = "") -> Iterator[str]:
+    """A few lines: the drawing, the wires with their cut lengths, the jig, and where the files are.
+
+    `take` is a command that builds one of the alternatives, shown behind their picture.
+    """
     report = result.report
     drawing = report["drawing"]
     width, height = drawing["size_mm"]
@@ -33,6 +37,9 @@ def summary_lines(result: Build) -> Iterator[str]:
             yield f"the kernel's booleans find {jig['interference_mm3']:g} mm³ of jig in wires and channels"
     if result.folder is not None:
         yield _where(result)
+        for artifact in result.report["artifacts"] if take else ():
+            if artifact.get("instead_of", artifact["path"]) == ALTERNATIVES:
+                yield f"alternatives: {result.folder / artifact['path']}; take one with: {take}"
 
 
 def _where(result: Build) -> str:

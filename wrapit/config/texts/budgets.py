@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, Final
 
+from wrapit.calling import pasted
 from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened
 
@@ -106,7 +107,7 @@ class _Stream:
             raise self._refuse(
                 event,
                 f"blocks and lists lie more than {DEEPEST} levels deep",
-                "see `wrapit schema` for the keys",
+                f"see `{pasted('schema')}` for the keys",
             )
         self.open.append(_Open(event.anchor, kind == "MappingStart", nodes_before))
 
@@ -120,7 +121,9 @@ class _Stream:
         is_text = kind == "Scalar" and (event.style in ("'", '"') or _KEY.fullmatch(event.value))
         if not is_text:
             shown = repr(shortened(printable(event.value), 40)) if kind == "Scalar" else "here"
-            raise self._refuse(event, f"the key {shown} is not a word", "see `wrapit schema` for the keys")
+            raise self._refuse(
+                event, f"the key {shown} is not a word", f"see `{pasted('schema')}` for the keys"
+            )
 
     def _check_scalar(self, event: Any) -> None:
         text = event.value

@@ -7,7 +7,7 @@ import stat
 from pathlib import Path
 from typing import Any, Final
 
-from wrapit.config.budgets import check_budgets
+from wrapit.config.texts.budgets import check_budgets
 from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened
 

@@ -1,0 +1,79 @@
+"""What `init` proposes can be made, and what it found is said on the screen."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import CONFIGS
+from wrapit.config import load_config
+from wrapit.config.texts.presets import preset_names
+from wrapit.drawing.proposal import SIZES_MM, propose
+from wrapit.errors import ConfigError
+from wrapit.pipeline import proposing
+from wrapit.pipeline.proposing import propose_makeable
+from wrapit.pipeline.remedies import held_share
+
+
+def init(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "wrapit", "init", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(CONFIGS.parent)}
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=300, check=False, cwd=cwd, env=environment
+    )
+
+
+@pytest.mark.parametrize("name", ["leaf", "bee"])
+def test_the_proposed_size_is_held(tmp_path: Path, name: str) -> None:
+    drawing = CONFIGS / f"{name}.png"
+    proposal, makeable = propose_makeable(drawing, tmp_path)
+    assert makeable
+    assert proposal.size_mm >= propose(drawing, tmp_path).size_mm
+    (tmp_path / "x.yaml").write_text(proposal.text(), encoding="utf-8")
+    config = load_config(tmp_path / "x.yaml")
+    assert config.size == proposal.size_mm
+    assert held_share(config, drawing) >= config.jig.least_support
+
+
+def test_the_first_size_that_does_is_taken(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    drawing = CONFIGS / "leaf.png"
+    monkeypatch.setattr(proposing, "held_share", lambda config, path: 1.0 if config.size >= 55 else 0.2)
+    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: config.size < 80)
+    assert propose_makeable(drawing, tmp_path)[0].size_mm == 80
+    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: True)
+    assert propose_makeable(drawing, tmp_path)[0].size_mm == 55
+    monkeypatch.setattr(proposing, "held_share", lambda config, path: 0.2)
+    proposal, makeable = propose_makeable(drawing, tmp_path)
+    assert not makeable
+    assert proposal.size_mm == propose(drawing, tmp_path).size_mm
+
+
+@pytest.mark.parametrize("preset", preset_names())
+def test_a_preset_is_written_out(tmp_path: Path, preset: str) -> None:
+    proposal = propose(CONFIGS / "leaf.png", tmp_path, preset)
+    path = tmp_path / "leaf.yaml"
+    path.write_text(proposal.text(), encoding="utf-8")
+    config, merged = load_config(path), load_config([Path(f":{preset}"), path])
+    assert (config.bail, config.pair, config.guide) == (merged.bail, merged.pair, merged.guide)
+    assert config.wire.gauge == load_config(Path(f":{preset}"), ["drawing=x.png"]).wire.gauge
+    assert proposal.size_mm in SIZES_MM
+    with pytest.raises(ConfigError, match="did you mean"):
+        propose(CONFIGS / "leaf.png", tmp_path, f"{preset}x")
+
+
+def test_what_was_found_is_said(tmp_path: Path) -> None:
+    (tmp_path / "two.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 40"><g fill="none" stroke="black">'
+        '<path d="M 2 20 C 2 0 50 0 50 20 C 50 40 2 40 2 20 Z"/><path d="M 70 20 L 80 22"/></g></svg>'
+    )
+    run = init("two.svg", "--preset", "pendant", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    written = (tmp_path / "two.yaml").read_text(encoding="utf-8")
+    told = [line[2:] for line in written.splitlines() if line.startswith(("# warning: ", "# note: "))]
+    assert told
+    assert run.stderr.splitlines()[: len(told)] == told
+    assert "bail: {at: top" in written

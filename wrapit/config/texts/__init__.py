@@ -1,0 +1,1 @@
+"""Texts of YAML into plain values that know where they stand, and what is said of a mistake in them."""
