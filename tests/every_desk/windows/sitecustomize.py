@@ -2,7 +2,8 @@
 
 What wrapit's own modules ask for (`sys.platform`, names of `os` and `signal`, POSIX modules) is as on
 Windows; libraries see the system that they run on. For all alike, text files are cp1252 with
-\\r\\n unless they are opened otherwise, and files that a process has open can't be replaced, renamed or deleted, nor their folders.
+\\r\\n unless they are opened otherwise, and files that a process has open can't be replaced, renamed or
+deleted, nor their folders.
 """
 
 from __future__ import annotations
