@@ -82,5 +82,8 @@ golden: $(READY) ## write the golden numbers anew, to be looked at before they a
 bench: $(READY) ## measure accuracy and speed
 	$(BIN)/python -m tests.bench
 
+docs: $(READY) ## write wrapit/TROUBLESHOOTING.md anew
+	$(BIN)/python -m tests.docs
+
 clean: ## remove what was built (keeps .venv)
 	rm -rf build .pytest_cache .ruff_cache .mypy_cache .hypothesis .import_linter_cache
