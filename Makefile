@@ -86,5 +86,8 @@ pictures: $(READY) ## make the README's pictures anew
 bench: $(READY) ## measure accuracy and speed
 	$(BIN)/python -m tests.bench
 
+docs: $(READY) ## write wrapit/TROUBLESHOOTING.md anew
+	$(BIN)/python -m tests.docs
+
 clean: ## remove what was built (keeps .venv)
 	rm -rf build .pytest_cache .ruff_cache .mypy_cache .hypothesis .import_linter_cache

@@ -55,7 +55,8 @@ def main() -> NoReturn:
 
 def _ending() -> list[int]:
     """Signals that end the program, but those that it was started to ignore, as by nohup."""
-    known = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    names = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+    known = [getattr(signal, name) for name in names if hasattr(signal, name)]
     return [signum for signum in known if signal.getsignal(signum) is not signal.SIG_IGN]
 
 

@@ -124,8 +124,15 @@ def _size(drawing: Drawing, across_mm: float, wire_mm: float, least_mm: float) -
 
 
 def _seen_from(folder: Path, path: Path) -> str:
-    """The drawing's path from a folder; links are followed first, or `..` would lead elsewhere."""
-    seen = os.path.relpath(Path(os.path.realpath(path.parent), path.name), os.path.realpath(folder))
+    """The drawing's path from a folder, with slashes; the whole path where they lie on two drives.
+
+    Links are followed first, or `..` would lead elsewhere.
+    """
+    drawing = Path(os.path.realpath(path.parent), path.name)
+    try:
+        seen = Path(os.path.relpath(drawing, os.path.realpath(folder))).as_posix()
+    except ValueError:  # no way leads from one drive to another
+        seen = drawing.as_posix()
     if problem := path_problem(seen):
         raise DrawingError(problem.partition("; ")[0], str(path), "rename or move the drawing")
     return seen

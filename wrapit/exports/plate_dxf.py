@@ -67,7 +67,9 @@ def write_dxf(
         for name in sorted(document.entitydb.dxf_types_in_use()):  # the library adds some in random order
             document.classes.add_class(name)
         try:
-            document.saveas(path)
+            coding = {"encoding": document.output_encoding, "errors": "dxfreplace"}
+            with path.open("w", **coding, newline="\n") as stream:
+                document.write(stream)
         except OSError as error:
             raise ExportError(
                 f"the DXF can't be written ({error.strerror})", str(path), "check folder and disk"

@@ -34,7 +34,8 @@ def write_step(path: Path, name: str, parts: Sequence[FilePart]) -> None:
     with guarded("writing STEP", path.name):
         if not _export(cadquery_assembly(name, parts, carried), path):
             raise ExportError("the STEP file can't be written", str(path))
-    path.write_text(canonical_step(path.read_text(encoding="latin-1"), path.name), encoding="latin-1")
+    text = canonical_step(path.read_text(encoding="latin-1"), path.name)
+    path.write_text(text, encoding="latin-1", newline="\n")
 
 
 def write_stl(path: Path, solids: Sequence[Any], tolerance_mm: float) -> None:

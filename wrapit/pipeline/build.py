@@ -16,6 +16,7 @@ from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renam
 from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
 from wrapit.pipeline.remedies import what_would_do
 from wrapit.pipeline.stages import run_stages
+from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import STAGES, AfterStage, Progress, Stage, Work
 
 
@@ -71,7 +72,7 @@ def build(
         work.report["until"] = work.until
         work.report["artifacts"] = reports.artifact_list(artifacts_in(partial, renamed))
         work.report["findings"] = reports.findings_list(work.findings)
-        (partial / REPORT).write_text(reports.to_json(work.report), encoding="utf-8")
+        write_text(partial / REPORT, reports.to_json(work.report))
         put_in_place(partial, folder)
     return Build(work.report, work.timings_s, target, sources, until)
 

@@ -94,9 +94,10 @@ def _has_name(path: Path) -> bool:
 
 def _text(path: Path) -> str:
     """A path that is neither somebody's home (`~`) nor one of make's words, and begins with no space."""
-    text = os.path.normpath(path) if ".." not in path.parts else str(path)
+    tidy = Path(os.path.normpath(path)) if ".." not in path.parts else path
+    text = tidy.as_posix()  # make's separator is a slash on every system
     if text[0] == "~" or text[0].isspace():
-        return str(Path(text).absolute())  # for make takes away a `./`
+        return tidy.absolute().as_posix()  # for make takes away a `./`
     return text if "/" in text else f"./{text}"
 
 

@@ -104,7 +104,7 @@ def _start_tracker() -> None:
 
 def _ended(exit_code: int | None, where: str) -> KernelError:
     """Why the process is gone: killed from outside is what systems do that run out of memory."""
-    if exit_code == -signal.SIGKILL:
+    if sys.platform != "win32" and exit_code == -signal.SIGKILL:
         return _out_of_memory(where)
     if exit_code == 1:  # Python's own way to end; the kernel's crashes are signals
         return KernelError(

@@ -16,13 +16,14 @@ import re
 import secrets
 import shutil
 import stat
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from wrapit.errors import ConfigError, ExportError, Finding
 from wrapit.pipeline.output.guards import lock_on, signals_held, unlock
-from wrapit.pipeline.output.moving import move_in, shut_out
+from wrapit.pipeline.output.moving import held_open, move_in, shut_out
 from wrapit.pipeline.output.ownership import (
     LONGEST_NAME_BYTES,
     REPORT,
@@ -38,6 +39,9 @@ OTHER_FOLDER = "choose another folder with -o"
 _LONGEST_PREFIX_BYTES = 120
 # What a writer couldn't write any more stays free: less than one of its buffers.
 _NO_ROOM_BYTES = 1 << 16
+# Windows as it comes takes paths of 259 characters. A temporary folder's has 18 more than the folder's own,
+# and the longest of our usual names, `decomposition.json`, takes 19 with its separator.
+_LONG_PATH = 259 - 18 - 19
 
 
 def followed(target: Path) -> Path:
@@ -155,7 +159,8 @@ def _beside(path: Path) -> Iterator[str]:
 def put_in_place(partial: Path, folder: Path) -> None:
     """Moves the finished files into the folder, and takes away those of the earlier build that are no more.
 
-    Raises ExportError when something of somebody else's appeared in their place meanwhile.
+    Raises ExportError when something of somebody else's appeared in their place meanwhile, or a program keeps
+    an earlier file from being replaced.
     """
     with signals_held():
         if not folder.exists():
@@ -167,16 +172,19 @@ def put_in_place(partial: Path, folder: Path) -> None:
                     raise  # else another build was faster: its files are replaced like any earlier ones
         lock = lock_on(folder, wait=True)
         try:
-            _refuse_strangers(partial, folder)
+            _refuse_where_taken(partial, folder)
             move_in(partial.rename(partial.with_suffix(".ready")), folder)
         finally:
             unlock(lock)
 
 
-def _refuse_strangers(ready: Path, folder: Path) -> None:
+def _refuse_where_taken(ready: Path, folder: Path) -> None:
     for path in shut_out(ready, folder):
         problem = "somebody wrote this file meanwhile, so the new one was not put in its place"
         raise ExportError(problem, str(folder / path.name), "move it away and build again")
+    for path in held_open(ready, folder):
+        remedy = f"close the program that has {path.name} open, and build again"
+        raise ExportError("another program keeps this file from being replaced", str(path), remedy)
 
 
 def _clear_leftovers(folder: Path) -> None:
@@ -260,8 +268,13 @@ def _remove_empty(folders: list[Path]) -> None:
 
 
 def _unwritable(error: OSError, folder: Path) -> ExportError:
-    reason = (error.strerror or str(error)).lower()
-    return ExportError(f"can't write here ({reason})", str(folder), f"free space, or {OTHER_FOLDER}")
+    reason, remedy = (error.strerror or str(error)).lower(), f"free space, or {OTHER_FOLDER}"
+    if sys.platform == "win32":
+        if isinstance(error, PermissionError):
+            remedy = f"close programs that have its files open, or {OTHER_FOLDER}"
+        elif isinstance(error, FileNotFoundError) and len(str(folder)) > _LONG_PATH:
+            reason, remedy = "the path is too long for this system", f"{OTHER_FOLDER}: a shorter path"
+    return ExportError(f"can't write here ({reason})", str(folder), remedy)
 
 
 def _as_known(error: ExportError, partial: Path, folder: Path) -> ExportError:

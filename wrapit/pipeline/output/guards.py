@@ -11,8 +11,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-# Signals that end a program and can be held: closing a terminal, Ctrl-C, and being asked to end.
-_ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP")
+# Signals that end a program and can be held: Ctrl-C, being asked to end, closing a terminal; and Ctrl-Break,
+# which Windows has.
+_ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
 
 def lock_on(folder: Path, *, wait: bool) -> int | None:
@@ -21,7 +22,9 @@ def lock_on(folder: Path, *, wait: bool) -> int | None:
     Raises OSError where there is no such folder.
     """
     if sys.platform == "win32":
-        return None  # nothing tells there whether another build lives, so its folder is left to it
+        from wrapit.pipeline.output.byte_locks import locked_byte
+
+        return locked_byte(folder, wait=wait)
     import fcntl
 
     handle = os.open(folder, os.O_RDONLY)
@@ -35,7 +38,13 @@ def lock_on(folder: Path, *, wait: bool) -> int | None:
 
 def unlock(lock: int | None) -> None:
     """Gives up a lock, if there is one."""
-    if lock is not None:
+    if lock is None:
+        return
+    if sys.platform == "win32":
+        from wrapit.pipeline.output.byte_locks import let_go
+
+        let_go(lock)
+    else:
         os.close(lock)
 
 

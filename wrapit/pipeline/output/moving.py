@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from wrapit.pipeline.output.ownership import REPORT, is_unchanged, listed_files, own_report
+from wrapit.pipeline.output.ownership import REPORT, is_plain_file, is_unchanged, listed_files, own_report
 
 
 def move_in(ready: Path, folder: Path) -> None:
@@ -23,6 +24,22 @@ def move_in(ready: Path, folder: Path) -> None:
             (folder / name).unlink()
     (ready / REPORT).replace(folder / REPORT)
     ready.rmdir()
+
+
+def held_open(ready: Path, folder: Path) -> Iterator[Path]:
+    """Files to be replaced or taken away that a program has open, where this forbids it (Windows).
+
+    A new name for a file needs there what taking it away needs, even where it is the old name.
+    """
+    if sys.platform != "win32":
+        return
+    for name in sorted({*listed_files(own_report(folder)), *(path.name for path in ready.iterdir())}):
+        place = folder / name
+        try:
+            if is_plain_file(place):
+                place.rename(place)
+        except PermissionError:
+            yield place
 
 
 def shut_out(ready: Path, folder: Path) -> Iterator[Path]:

@@ -75,12 +75,15 @@ def listed_files(report: dict[str, Any] | None) -> dict[str, str]:
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name stays in its folder and can be one: no separator, no `..`, not empty, not too long."""
+    """Whether a name stays in its folder and can be one: no separator, no `..`, not empty, not too long.
+
+    A colon separates too, on Windows: drives, and streams of a file.
+    """
     try:
         possible = 0 < len(os.fsencode(name)) <= LONGEST_NAME_BYTES
     except UnicodeError:
         return False
-    return possible and name not in (".", "..", REPORT) and not set(name) & set("/\\\0")
+    return possible and name not in (".", "..", REPORT) and not set(name) & set("/\\:\0")
 
 
 def is_plain_file(path: Path) -> bool:
