@@ -65,7 +65,8 @@ def all_made(page: Page) -> None:
 
 
 def drawn(page: Page) -> list[str]:
-    return page.locator("#canvas .wire").evaluate_all("each => each.map((line) => line.getAttribute('points'))")
+    lines = page.locator("#canvas .wire")
+    return lines.evaluate_all("each => each.map((line) => line.getAttribute('points'))")
 
 
 def test_a_new_size_is_written_and_seen(page: Page, studio: Studio) -> None:

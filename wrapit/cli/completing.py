@@ -29,6 +29,11 @@ def drawings(incomplete: str) -> list[str]:
     return list(_files(incomplete, _DRAWINGS))
 
 
+def pieces(incomplete: str) -> list[str]:
+    """Files of YAML or what may be drawings, and folders."""
+    return list(_files(incomplete, (*_CONFIGS, *_DRAWINGS)))
+
+
 def stages(incomplete: str) -> list[str]:
     """The stages of a build.
 

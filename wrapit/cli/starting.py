@@ -35,6 +35,15 @@ def init(
     ] = "",
 ) -> None:
     """Write a commented config for a drawing, with sizes proposed from it."""
+    target = write_proposal(drawing, output, preset)
+    print(f"written: {target}; build it with: {pasted('build', argument(target))}")
+
+
+def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") -> Path:
+    """Writes the config that is proposed for a drawing, and says on stderr what was found; returns its path.
+
+    Raises ConfigError where there is a file already or none can be written, and what `propose_makeable` does.
+    """
     from wrapit.errors import ConfigError
     from wrapit.pipeline.proposing import propose_makeable
     from wrapit.pipeline.textfile import write_whole
@@ -54,7 +63,7 @@ def init(
     if not makeable:
         remedy = f"see {pasted('check', argument(target))}"
         say(f"warning: no usual size was found at which a jig holds it; {remedy}")
-    print(f"written: {target}; build it with: {pasted('build', argument(target))}")
+    return target
 
 
 @app.command()

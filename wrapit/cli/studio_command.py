@@ -7,14 +7,20 @@ from typing import Annotated
 
 import typer
 
+from wrapit.cli import completing
 from wrapit.cli.app import app, say
+from wrapit.cli.starting import write_proposal
 
 
 @app.command()
 def studio(
     piece: Annotated[
         Path,
-        typer.Argument(metavar="CONFIG|DRAWING", help="A config, or a drawing that gets one beside it."),
+        typer.Argument(
+            metavar="CONFIG|DRAWING",
+            autocompletion=completing.pieces,
+            help="A config, or a drawing that gets one beside it.",
+        ),
     ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Default: build/<name>.")
@@ -33,7 +39,6 @@ def studio(
 def _config(piece: Path) -> Path:
     """The config that is meant: the file itself, or the one beside a drawing, which is made where none is."""
     from wrapit.errors import ConfigError
-    from wrapit.pipeline.textfile import write_whole
 
     if piece.suffix.lower() in (".yaml", ".yml") or not piece.suffix:
         if not piece.is_file():
@@ -42,13 +47,5 @@ def _config(piece: Path) -> Path:
     config = piece.with_suffix(".yaml")
     if config.is_file():
         return config
-    from wrapit.drawing.proposal import propose_config
-
-    text = propose_config(piece)
-    try:
-        write_whole(config, text)
-    except OSError as error:
-        problem, remedy = f"can't be written ({error.strerror})", "move the drawing to a folder of yours"
-        raise ConfigError(problem, str(config), remedy) from None
-    say(f"written: {config}")
+    say(f"written: {write_proposal(piece)}")
     return config

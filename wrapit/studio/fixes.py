@@ -13,7 +13,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from wrapit.config import Config
-from wrapit.config.reading import read_yaml
+from wrapit.config.texts.reading import read_yaml
 from wrapit.errors import ConfigError
 from wrapit.studio.controls import field_at
 from wrapit.studio.text.values import plain, value_at, with_value, without_value

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from wrapit.config import Config, load_config
-from wrapit.config.reading import LARGEST_FILE
+from wrapit.config.texts.reading import LARGEST_FILE
 from wrapit.errors import ConfigError, WrapItError
 from wrapit.pipeline.textfile import write_whole
 from wrapit.studio.text.values import BOM, said

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from wrapit.config.reading import UNREADABLE
+from wrapit.config.texts.reading import UNREADABLE
 from wrapit.errors import ConfigError
 from wrapit.studio.text.splicing import relisted, removed, replaced
 from wrapit.studio.text.values import BOM, plain, said, value_at, with_value, without_value

@@ -14,7 +14,7 @@ from typing import Any, Final
 from pydantic import BaseModel
 
 from wrapit.config import Config
-from wrapit.config.reading import read_yaml
+from wrapit.config.texts.reading import read_yaml
 from wrapit.errors import ConfigError
 from wrapit.studio.text.values import plain
 

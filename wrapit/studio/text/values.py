@@ -6,7 +6,7 @@ import copy
 from collections.abc import Mapping
 from typing import Any, Final
 
-from wrapit.config.reading import read_yaml
+from wrapit.config.texts.reading import read_yaml
 from wrapit.errors import ConfigError
 
 BOM: Final = "\ufeff"
