@@ -69,11 +69,11 @@ def with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) ->
 def show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
     """Prints what a build made: the report as one document, or its summary and findings."""
     if as_json:
-        print(json.dumps({**result.report, "timings_s": result.timings_s}, allow_nan=False))
+        print(json.dumps({**result.report, "timings_s": result.timings}, allow_nan=False))
         return
     if quiet:
         return
-    from wrapit.pipeline.summary import finding_lines, summary_lines
+    from wrapit.pipeline.summary import finding_lines, summary_lines, timing_lines
 
     for line in summary_lines(result):
         print(line)
@@ -81,5 +81,5 @@ def show(result: Build, as_json: bool, quiet: bool, verbose: int) -> None:
     for line in finding_lines(result, every=verbose > 0):
         say(line)
     if verbose:
-        for stage, seconds in result.timings_s.items():
-            say(f"{stage:<14}{seconds:7.2f} s")
+        for line in timing_lines(result):
+            say(line)
