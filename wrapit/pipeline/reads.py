@@ -21,22 +21,39 @@ class Step:
     reads: tuple[str, ...] = ()
 
 
+# Of `jig`, wires are drawn by what makes a turn and what a post needs; jigs by all of it.
+_OF_TURNS = tuple(
+    f"jig.{key}"
+    for key in (
+        "clearance",
+        "min_wall_width",
+        "post_bends",
+        "springback",
+        "support",
+        "turn_angle",
+        "turn_curvature",
+    )
+)
 STEPS: Final[dict[str, Step]] = {
     "trace": Step(reads=("size", "tracing")),
     "drawing": Step(("trace",), ("decomposition.bridges",)),
     "decomposition": Step(("trace",), ("decomposition",)),
     "sketch": Step(("wires",)),
     "alternatives": Step(("wires",)),
-    "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", "jig")),
-    "jig printed": Step(("wires",), ("jig", "wire", "outputs", "name")),
-    "jig sheet": Step(("wires",), ("jig", "wire", "plate", "outputs")),
-    "jig pegs": Step(("wires",), ("jig", "wire", "plate", "pegs", "outputs")),
-    "mirrored jig": Step(("wires",), ("jigs", "pair")),
-    "wires.step": Step(("wires",), ("name",)),
+    "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", *_OF_TURNS)),
+    "laid": Step(("wires",), ("jig",)),
+    "jig printed": Step(("laid",), ("name", "outputs", "pair")),
+    "jig sheet": Step(("laid",), ("plate", "outputs", "pair")),
+    "jig pegs": Step(("laid",), ("pegs", "plate", "outputs", "pair")),
+    "mirrored jig": Step(("jig printed",), ("jigs",)),
+    "wires.step": Step(("wires",), ("name", "jig.base_thickness")),
     "views": Step(("wires",)),
-    "guide": Step(("wires", "mirrored jig"), ("jigs", "guide", "wire", "name", "outputs", "pair")),
+    "guide": Step(("mirrored jig",), ("jigs", "guide")),
 }
 """Steps by name. `jig sheet` and so on are those of a kind."""
+
+# A jig kind that isn't named above: whatever it reads, it is made again when the config changes.
+_WHOLE: Final = Step(("laid",), tuple(Config.model_fields))
 
 
 class Keys:
@@ -55,7 +72,7 @@ class Keys:
 
 def all_reads(step: str) -> set[str]:
     """Keys of the config that a step depends on, itself and by way of others."""
-    said = STEPS[step]
+    said = STEPS.get(step, _WHOLE)
     return set(said.reads).union(*map(all_reads, said.upon))
 
 

@@ -122,31 +122,32 @@ def _decompose(work: Work, folder: Path | None) -> None:
 def _draw_wires(work: Work, folder: Path | None) -> None:
     def drawn() -> Outcome:
         from wrapit.exports.decomposition_svg import decomposition_svg
-        from wrapit.pipeline.report import bail_numbers, springback_numbers, wire_numbers
+        from wrapit.pipeline.report import bail_numbers, wire_numbers
         from wrapit.wires.jump_ring import jump_ring
         from wrapit.wires.stage import draw_wires
 
         assert work.solution is not None
         wires, findings = draw_wires(work.solution, work.config)
         blocks: dict[str, Any] = {"wires": wire_numbers(wires)}
-        laid = wires
-        if work.config.jig.springback == "compensate":
-            from wrapit.jig.overbending import overbend_wires
-
-            bent, said = overbend_wires(wires, work.config)
-            findings = (*findings, *said)
-            blocks["springback"] = springback_numbers(bent)
-            laid = tuple(each.wire for each in bent)
         ring, placed = jump_ring(wires, work.solution.decomposition.drawing, work.config)
         if work.config.bail is not None:
             blocks["bail"] = bail_numbers(wires, ring)
         if folder is not None:
             write_text(folder / "decomposition.svg", decomposition_svg(work.solution, wires))
         files = ("decomposition.svg",) if folder is not None else ()
-        return Outcome((wires, laid, ring), blocks, (*findings, *placed), files)
+        return Outcome((wires, ring), blocks, (*findings, *placed), files)
+
+    def laid() -> Outcome:
+        from wrapit.jig.overbending import overbend_wires
+        from wrapit.pipeline.report import springback_numbers
+
+        bent, findings = overbend_wires(work.wires, work.config)
+        return Outcome(tuple(each.wire for each in bent), {"springback": springback_numbers(bent)}, findings)
 
     with work.stage("wires"):
         work.take("wires", work.remember(work.key("wires", folder is not None), drawn, folder))
+        if work.config.jig.springback == "compensate":
+            work.take("laid", work.remember(work.key("laid"), laid, None))
 
 
 def _export(work: Work, kernel: OnCall, folder: Path) -> None:

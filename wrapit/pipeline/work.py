@@ -81,11 +81,11 @@ class Work:
     @property
     def laid(self) -> tuple[Wire, ...]:
         """The wires as they lie in the jig: bent further than drawn where it makes up for springback."""
-        return self._drawn[1]
+        return self._value("laid") or self.wires
 
     @property
     def ring(self) -> JumpRing | None:
-        return self._drawn[2]
+        return self._drawn[1]
 
     @property
     def made(self) -> dict[JigKind, Made]:
@@ -102,9 +102,9 @@ class Work:
         return "mirrored jig" in self.outcomes and bool(self.outcomes["mirrored jig"].blocks)
 
     @property
-    def _drawn(self) -> tuple[tuple[Wire, ...], tuple[Wire, ...], JumpRing | None]:
-        drawn: tuple[tuple[Wire, ...], tuple[Wire, ...], JumpRing | None] | None = self._value("wires")
-        return drawn or ((), (), None)
+    def _drawn(self) -> tuple[tuple[Wire, ...], JumpRing | None]:
+        drawn: tuple[tuple[Wire, ...], JumpRing | None] | None = self._value("wires")
+        return drawn or ((), None)
 
     def _value(self, step: str) -> Any:
         return self.outcomes[step].value if step in self.outcomes else None
