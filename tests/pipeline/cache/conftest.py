@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -18,7 +17,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def anew(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
+def anew(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of the steps that were made, not recalled, in the order of their making."""
     named, made = {}, []
     key, keep = Work.key, Work.keep
@@ -34,4 +33,4 @@ def anew(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
 
     monkeypatch.setattr(Work, "key", naming)
     monkeypatch.setattr(Work, "keep", noting)
-    yield made
+    return made

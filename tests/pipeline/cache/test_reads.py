@@ -26,7 +26,7 @@ from wrapit.pipeline.work import Work
 SETTINGS: dict[str, tuple[str, ...]] = {
     "printed": ("jigs=[printed]", "pair=true", "bail={at: top}"),
     "sheet": ("jigs=[sheet]", "jig.springback=compensate"),
-    "pegs": ("jigs=[pegs]", "bail={at: top, kind: ring}", "jig.support=turns"),
+    "pegs": ("jigs=[pegs]", "jig.support=turns"),
     "bridges": ("jigs=[printed]", "decomposition.bridges=true", "jig.split=per-wire"),
     "annealing": ("jigs=[sheet]", "decomposition.solver=annealing", "outputs=[html, dxf]", "pair=true"),
 }
@@ -105,7 +105,7 @@ class Recorder:
         monkeypatch.setattr(stages, "Worker", lambda preload: Here(self))
 
     def undeclared(self) -> dict[str, list[str]]:
-        """Keys that steps read and don't say so; to read a block is to read the keys that are declared of it."""
+        """Keys that steps read and don't say so; who says a key of a block may take the block to get at it."""
         return {
             step: wrong
             for step, read in self.read.items()

@@ -97,7 +97,7 @@ def test_where_no_folder_can_be_nothing_is_kept(tmp_path: Path, blocked: str) ->
 def test_an_entry_that_is_open_elsewhere_stays(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     store.put("a", ENTRY)
 
-    def refused(path: Path, target: Path) -> Path:
+    def refused(*_: Path) -> Path:
         raise PermissionError(13, "is open")
 
     monkeypatch.setattr(Path, "replace", refused)
