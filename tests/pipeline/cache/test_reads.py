@@ -105,7 +105,7 @@ class Recorder:
         monkeypatch.setattr(stages, "Worker", lambda preload: Here(self))
 
     def undeclared(self) -> dict[str, list[str]]:
-        """Keys that steps read and don't say so; who says a key of a block may take the block to get at it."""
+        """Keys that steps read and don't say so; who says a key of a block may take the block for it."""
         return {
             step: wrong
             for step, read in self.read.items()
@@ -119,10 +119,8 @@ def _declared(path: str, said: set[str]) -> bool:
 
 
 @pytest.fixture
-def recorder(monkeypatch: pytest.MonkeyPatch) -> Iterator[Recorder]:
-    # Not by `setattr` on the way back: the method was inherited, and pydantic's class would keep a copy.
-    with monkeypatch.context() as patch:
-        yield Recorder(patch)
+def recorder(monkeypatch: pytest.MonkeyPatch) -> Recorder:
+    return Recorder(monkeypatch)
 
 
 @pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)

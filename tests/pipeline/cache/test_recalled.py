@@ -131,9 +131,10 @@ def test_pieces_are_the_same_with_and_without(
     assert list(cache.iterdir()) != []
 
 
+@pytest.mark.usefixtures("cache")
 @pytest.mark.parametrize("value", [b"", b"foreign", b"cnowhere\nnothing\n."])
 def test_a_value_that_cannot_be_read_is_made_again(
-    tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, value: bytes
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, value: bytes
 ) -> None:
     config = written_piece(tmp_path)
     build(config, tmp_path / "first", until="drawing")
@@ -216,7 +217,8 @@ def test_a_cache_that_takes_nothing_is_one_note_and_no_matter_of_the_piece(
     assert "cache" not in {each["code"] for each in build(config, tmp_path / "off").report["findings"]}
 
 
-def test_what_is_recalled_takes_no_numpy(tmp_path: Path, cache: Path) -> None:
+@pytest.mark.usefixtures("cache")
+def test_what_is_recalled_takes_no_numpy(tmp_path: Path) -> None:
     config = written_piece(tmp_path, pair=True)
     script = (
         "import pathlib, sys\n"
@@ -225,7 +227,6 @@ def test_what_is_recalled_takes_no_numpy(tmp_path: Path, cache: Path) -> None:
         "    built = build(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))\n"
         "    print(len(built.cached), sorted({'numpy', 'shapely', 'scipy', 'OCP'} & set(sys.modules)))\n"
     )
-    (tmp_path / "script.py").write_text(script)
     root = str(CONFIGS.parent)
     said = [
         subprocess.run(
