@@ -26,6 +26,7 @@ _OF_TURNS = tuple(
     f"jig.{key}"
     for key in (
         "clearance",
+        "long_segment",
         "min_wall_width",
         "post_bends",
         "springback",
