@@ -13,7 +13,7 @@ import pytest
 
 from tests.conftest import CONFIGS
 from tests.pipeline.folders import held, written_piece
-from tests.pipeline.test_command_line import WRAPIT
+from wrapit.errors import UnheldError
 from wrapit.pipeline import stages
 from wrapit.pipeline.build import build, check
 from wrapit.pipeline.cache import store as stores
@@ -185,20 +185,19 @@ def test_a_drawing_that_is_saved_while_it_is_read_is_of_no_key(
     assert build(config, tmp_path / "after", until="wires").cached == ()
 
 
-def test_errors_are_not_kept(tmp_path: Path, cache: Path) -> None:
+def test_errors_are_not_kept(
+    tmp_path: Path, cache: Path, anew: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("wrapit.pipeline.build.what_would_do", lambda config, drawing: "take another drawing")
     config = written_piece(
-        tmp_path, jigs=["sheet"], jig={"least_support": 1}, plate={"min_wall_width": "40 mm"}
+        tmp_path, jigs=["pegs"], outputs=["dxf"], jig={"least_support": 1}, pegs={"diameters": ["30 mm"]}
     )
-    run = subprocess.run(
-        [*WRAPIT, "build", config, "-o", tmp_path / "out"], capture_output=True, text=True, check=False
-    )
-    assert run.returncode == 3, run.stderr
-    kept = sorted(cache.iterdir())
-    again = subprocess.run(
-        [*WRAPIT, "build", config, "-o", tmp_path / "out"], capture_output=True, text=True, check=False
-    )
-    assert (again.returncode, again.stderr) == (3, run.stderr)
-    assert sorted(cache.iterdir()) == kept
+    for made in (DRAWN, set()):
+        anew.clear()
+        with pytest.raises(UnheldError):
+            build(config, tmp_path / "out")
+        assert set(anew) == made
+        assert len(list(cache.iterdir())) == len(DRAWN)
 
 
 def test_a_cache_that_takes_nothing_is_one_note_and_no_matter_of_the_piece(
