@@ -190,7 +190,12 @@ def test_errors_are_not_kept(
 ) -> None:
     monkeypatch.setattr("wrapit.pipeline.build.what_would_do", lambda config, drawing: "take another drawing")
     config = written_piece(
-        tmp_path, jigs=["pegs"], outputs=["dxf"], jig={"least_support": 1}, pegs={"diameters": ["30 mm"]}
+        tmp_path,
+        size="20 mm",
+        jigs=["pegs"],
+        outputs=["dxf"],
+        jig={"least_support": 1},
+        pegs={"diameters": ["30 mm"]},
     )
     for made in (DRAWN, set()):
         anew.clear()
