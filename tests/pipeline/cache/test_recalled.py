@@ -43,7 +43,7 @@ CHANGES: list[tuple[str, set[str]]] = [
     ("decomposition.seed=2", ALL - DRAWING),
     ("decomposition.bridges=true", ALL - {"trace"}),
     ("size=41 mm", ALL),
-    ("name=other", {PRINTED, "wires.step", "guide"}),
+    ("name=other", {PRINTED} | EXPORTS),
 ]
 KERNEL_FREE = {"guide", "views", SHEET} | DRAWN
 OUTPUTS = ["step", "stl", "dxf", "html"]
@@ -121,7 +121,7 @@ def test_force_makes_all_anew_and_keeps_it(
 def test_pieces_are_the_same_with_and_without(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    settings = ("pair=true", "jigs=[pegs, printed]", "bail={at: top}", "jig.springback=compensate")
+    settings = ("pair=true", "jigs=[printed, sheet]", "bail={at: top}", "jig.springback=compensate")
     for folder in ("first", "second"):
         build(CONFIGS / f"{name}.yaml", tmp_path / folder, settings, alternatives=2)
     monkeypatch.setenv("WRAPIT_CACHE", "off")
