@@ -1,0 +1,5 @@
+"""Benchmarks: what is measured is made, not recalled."""
+
+import os
+
+os.environ["WRAPIT_CACHE"] = "off"

@@ -16,7 +16,10 @@ from tests.studio.running import Studio
 
 pytestmark = pytest.mark.client
 
-CONFIG = "# mine\nname: leaf\ndrawing: leaf.svg\nsize: 60 mm  # of the stem too\njigs: [sheet]\noutputs: [html, svg]\n"
+CONFIG = (
+    "# mine\nname: leaf\ndrawing: leaf.svg\nsize: 60 mm  # of the stem too\n"
+    "jigs: [sheet]\noutputs: [html, svg]\n"
+)
 # A busy machine builds a second's work in many.
 PATIENCE_MS = 120_000
 WIDTHS = (360, 768, 1000, 1400)

@@ -166,7 +166,7 @@ def test_json_is_one_document_with_timings(bee: Path) -> None:
     run = wrapit("build", bee, "-o", bee.parent / "out", "--until", "wires", "--json")
     report = json.loads(run.stdout)
     assert report["format"] == "wrapit-report/1"
-    assert set(report["timings_s"]) == {"drawing", "decomposition", "wires"}
+    assert set(report["timings_s"]) == {"drawing", "decomposition", "wires", "cached"}
     assert "timings_s" not in json.loads((bee.parent / "out" / "report.json").read_text())
 
 

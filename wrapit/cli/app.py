@@ -99,11 +99,11 @@ def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: str = ""
     `take` is the command that builds one of its alternatives, where there are some.
     """
     if as_json:
-        print(json.dumps({**result.report, "timings_s": result.timings_s}, allow_nan=False))
+        print(json.dumps({**result.report, "timings_s": result.timings}, allow_nan=False))
         return
     if quiet:
         return
-    from wrapit.pipeline.summary import finding_lines, summary_lines
+    from wrapit.pipeline.summary import finding_lines, summary_lines, timing_lines
 
     for line in summary_lines(result, take):
         print(line)
@@ -111,5 +111,5 @@ def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: str = ""
     for line in finding_lines(result, every=verbose > 0):
         say(line)
     if verbose:
-        for stage, seconds in result.timings_s.items():
-            say(f"{stage:<14}{seconds:7.2f} s")
+        for line in timing_lines(result):
+            say(line)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ from wrapit.config import named_after
 from wrapit.config.loading import load
 from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
+from wrapit.pipeline.cache.place import usual_store
+from wrapit.pipeline.cache.remembering import UnreadableEntry
 from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renamed_beside_others, staged
 from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
 from wrapit.pipeline.remedies import what_would_do
@@ -25,7 +28,7 @@ class Build:
     """What a build made; `folder` is None when nothing was written.
 
     `sources` are the files that it read, `asked` the stage that it was to reach; `up_to_date` says that the
-    folder held it all already.
+    folder held it all already. `cached` are stages that made nothing anew, for all came from the cache.
     """
 
     report: dict[str, Any]
@@ -34,6 +37,12 @@ class Build:
     sources: tuple[Path, ...]
     asked: Stage
     up_to_date: bool = False
+    cached: tuple[str, ...] = ()
+
+    @property
+    def timings(self) -> dict[str, Any]:
+        """Seconds by stage, and as `cached` the stages that came from the cache."""
+        return {**self.timings_s, "cached": list(self.cached)}
 
 
 def build(
@@ -51,12 +60,13 @@ def build(
     Several configs are merged left to right.
     `progress` is told before each stage, `after` after it. With `alternatives`, so many of the best
     decompositions are also drawn side by side. A folder that holds a fuller build of the same input keeps it.
-    Files of somebody else stay as they are.
+    Files of somebody else stay as they are. With `force` all is made anew, whatever is there or in the cache.
 
     Raises the WrapItError of the stage that fails; then the earlier content of the folder stays.
     """
     work, sources = _start(config_path, overrides, until, progress, alternatives)
     work.after = after
+    work.store = usual_store(reading=not force)
     target = target if target is not None else Path("build") / work.config.name
     folder = followed(target)
     prepare(folder)
@@ -66,7 +76,7 @@ def build(
             return Build(earlier, {}, target, sources, until, up_to_date=True)
         work.until = max(work.until, earlier["until"], key=STAGES.index)
     with staged(folder) as partial:
-        _run(work, partial)
+        work = _run(work, partial)
         renamed, kept = renamed_beside_others(partial, folder)
         work.findings += kept
         work.report["until"] = work.until
@@ -74,7 +84,7 @@ def build(
         work.report["findings"] = reports.findings_list(work.findings)
         write_text(partial / REPORT, reports.to_json(work.report))
         put_in_place(partial, folder)
-    return Build(work.report, work.timings_s, target, sources, until)
+    return _built(work, target, sources, until)
 
 
 def check(
@@ -90,10 +100,27 @@ def check(
     """
     work, sources = _start(config_path, overrides, "exports", progress)
     work.exact = exact
+    work.store = usual_store()
     with tempfile.TemporaryDirectory(prefix="wrapit-check-") as folder:
-        _run(work, Path(folder))
+        work = _run(work, Path(folder))
     work.report["findings"] = reports.findings_list(work.findings)
-    return Build(work.report, work.timings_s, None, sources, "exports")
+    return _built(work, None, sources, "exports")
+
+
+def _built(work: Work, folder: Path | None, sources: tuple[Path, ...], asked: Stage) -> Build:
+    """What a build made; that nothing could be kept is told, but no matter of the piece: no file says it."""
+    work.store.trim()
+    report = work.report
+    if work.store.trouble:
+        untold = Finding(
+            "note",
+            "cache",
+            str(work.store.folder),
+            f"nothing is kept there for the next build ({work.store.trouble})",
+            "free space, or name another folder in WRAPIT_CACHE (`off` for none)",
+        )
+        report = {**report, "findings": reports.findings_list([*work.findings, untold])}
+    return Build(report, work.timings_s, folder, sources, asked, cached=tuple(work.cached))
 
 
 def _start(
@@ -112,8 +139,8 @@ def _start(
             str(drawing_path),
             f"`drawing:` in {loaded.named_by.name} is relative to the config",
         )
-    work = Work(config, drawing_path, until, progress, alternatives)
-    work.report.update(reports.head(config, sha256(drawing_path)), until=until, alternatives=alternatives)
+    work = Work(config, drawing_path, until, progress, alternatives, drawing_sha256=sha256(drawing_path))
+    work.report.update(reports.head(config, work.drawing_sha256), until=until, alternatives=alternatives)
     named, renamed = named_after(loaded.named_by)
     if renamed and named == config.name:
         work.findings.append(
@@ -128,13 +155,24 @@ def _start(
     return work, (*loaded.sources, drawing_path)
 
 
-def _run(work: Work, folder: Path) -> None:
+def _run(work: Work, folder: Path) -> Work:
+    """Runs the stages; returns the work that they filled."""
+    unread = dataclasses.replace(
+        work, findings=[*work.findings], report={**work.report}, timings_s={}, cached=[], outcomes={}
+    )
     try:
         run_stages(work, folder)
+    except UnreadableEntry:
+        for path in folder.iterdir():
+            path.unlink()
+        unread.store = work.store.unread()
+        run_stages(unread, folder)
+        return unread
     except UnheldError as unheld:
         work.progress("looking for a size that would do")
         remedy = what_would_do(work.config, work.drawing_path)
         raise UnheldError(unheld.problem, work.config.name, remedy) from None
+    return work
 
 
 def _earlier_build(folder: Path, work: Work) -> dict[str, Any] | None:

@@ -2,58 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wrapit.config import Config
-from wrapit.decomposition.model import Solution
-from wrapit.drawing.model import Drawing
-from wrapit.errors import Finding
-from wrapit.jig.made import Made
+from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.textfile import write_text
-from wrapit.wires.model import JumpRing, Wire
+from wrapit.pipeline.work import Work
 
 if TYPE_CHECKING:
-    from wrapit.instructions.model import Guide
+    from wrapit.jig.made import Made
 
 ALTERNATIVES = "alternatives.svg"
 """The picture of the best decompositions side by side."""
 
 
-def write_views(folder: Path, wires: Sequence[Wire], made: Made, suffix: str = "") -> None:
-    """`preview{suffix}.png`, `view{suffix}.png`: a jig with its wires from above and at an angle.
+def write_views(work: Work, folder: Path, *, mirror: bool) -> Outcome:
+    """`preview.png`, `view.png`: a jig with its wires from above and at an angle.
 
-    Where one jig isn't all, each has its own beside the piece's preview. `wires` are as they are in the
-    piece; in the jig they may be overbent.
+    Where one jig isn't all, each has its own beside the piece's preview. The piece's own wires are as they
+    are there; in the jig they may be overbent.
     """
     from wrapit.exports.preview_png import write_preview
     from wrapit.exports.view_png import write_view
+    from wrapit.jig.made import MIRRORED
+    from wrapit.wires.mirror import mirrored
 
+    made, wires, suffix = work.made[work.kinds[0]], work.wires, ""
+    if mirror:
+        assert work.mirrored is not None
+        made, wires, suffix = work.mirrored, mirrored(work.wires), MIRRORED
+    files = []
     for view in made.views:
+        files.append(f"{view.stem}{suffix}.png")
         laid = wires if view.plate is None else view.wires
-        write_preview(folder / f"{view.stem}{suffix}.png", laid, view.walls, view.plate, view.taut)
+        write_preview(folder / files[-1], laid, view.walls, view.plate, view.taut)
         if view.plate is not None and view.plate_mm > 0:
-            write_view(folder / f"{view.stem.replace('preview', 'view', 1)}{suffix}.png", view)
+            files.append(f"{view.stem.replace('preview', 'view', 1)}{suffix}.png")
+            write_view(folder / files[-1], view)
+    return Outcome(files=files)
 
 
-def write_drawings(folder: Path, made: Made, config: Config) -> None:
-    """`plate.dxf`, `plate.svg` and so on: a jig's flat drawings."""
+def write_drawings(folder: Path, made: Made, config: Config) -> tuple[str, ...]:
+    """`plate.dxf`, `plate.svg` and so on: a jig's flat drawings; returns their names."""
     from wrapit.exports.flat_files import write_flat_files
 
-    for drawing in made.drawings:
-        write_flat_files(folder, drawing, config.plate, config.outputs)
+    return tuple(
+        path.name
+        for drawing in made.drawings
+        for path in write_flat_files(folder, drawing, config.plate, config.outputs)
+    )
 
 
-def write_guide(
-    folder: Path,
-    solution: Solution,
-    wires: Sequence[Wire],
-    jigs: Sequence[Made],
-    mirrored: Made | None,
-    ring: JumpRing | None,
-    config: Config,
-) -> tuple[Guide, tuple[Finding, ...]]:
+def write_guide(work: Work, folder: Path) -> Outcome:
     """`guide.html`, `guide.pdf`, and what they tell.
 
     The steps are of the first jig that holds wires, and of its mirror image.
@@ -61,7 +62,10 @@ def write_guide(
     from wrapit.instructions.plan import Held, plan_guide
     from wrapit.instructions.stage import write_page, write_print
     from wrapit.jig.bench.mirrored_bench import mirrored_handling
+    from wrapit.pipeline.report import guide_numbers
 
+    assert work.solution is not None
+    config, jigs, mirrored = work.config, list(work.made.values()), work.mirrored
     first = next((made for made in jigs if made.handling is not None), jigs[0])
     held, other = Held(first.handling, first.findings), None
     if mirrored is not None and first.block == mirrored.block:
@@ -69,31 +73,48 @@ def write_guide(
     elif config.pair:
         other = Held(held.handling and mirrored_handling(held.handling), held.findings)
     guide = plan_guide(
-        wires,
+        work.wires,
         config.guide,
         config.wire,
         name=config.name,
         held=held,
         other=other,
         pages=[made.page for made in jigs if made.page is not None],
-        ring=ring,
-        bridges=frozenset(solution.bridges_used),
+        ring=work.ring,
+        bridges=frozenset(work.solution.bridges_used),
     )
+    files = []
+    blocks = {"guide": guide_numbers(guide)}
     if "html" in config.outputs:
-        write_text(folder / "guide.html", write_page(guide, config.guide))
+        files.append("guide.html")
+        write_text(folder / files[-1], write_page(guide, config.guide))
     if "pdf" not in config.outputs:
-        return guide, ()
+        return Outcome(blocks=blocks, files=files)
     printed, findings = write_print(guide, config.guide)
-    (folder / "guide.pdf").write_bytes(printed)
-    return guide, findings
+    files.append("guide.pdf")
+    (folder / files[-1]).write_bytes(printed)
+    return Outcome(blocks=blocks, findings=findings, files=files)
 
 
-def write_alternatives(folder: Path, drawing: Drawing, config: Config, count: int) -> None:
+def write_sketch(work: Work, folder: Path) -> Outcome:
+    """`decomposition.svg` of a build that ends there: wires as they would be."""
+    from wrapit.exports.decomposition_svg import decomposition_svg
+    from wrapit.wires.stage import draw_wires
+
+    assert work.solution is not None
+    wires, _ = draw_wires(work.solution, work.config)
+    write_text(folder / "decomposition.svg", decomposition_svg(work.solution, wires))
+    return Outcome(files=("decomposition.svg",))
+
+
+def write_alternatives(work: Work, folder: Path) -> Outcome:
     """`alternatives.svg`: the best decompositions side by side."""
     from wrapit.decomposition.stage import alternatives
     from wrapit.exports.alternatives_svg import alternatives_svg
     from wrapit.wires.stage import draw_wires
 
-    choices = alternatives(drawing, config.decomposition, count)
-    shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
+    assert work.drawing is not None
+    choices = alternatives(work.drawing, work.config.decomposition, work.alternatives)
+    shown = [(choice, draw_wires(choice, work.config)[0]) for choice in choices]
     write_text(folder / ALTERNATIVES, alternatives_svg(shown))
+    return Outcome(files=(ALTERNATIVES,))

@@ -5,58 +5,108 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding, UnheldError
-from wrapit.jig.made import MIRRORED, JigMaker, Made, Wires
-from wrapit.pipeline.exporting import write_drawings
-from wrapit.pipeline.solids import judged_solids, make_solids, write_wires
+from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.work import Work
-from wrapit.pipeline.worker import Worker
+from wrapit.pipeline.worker import OnCall
+
+if TYPE_CHECKING:
+    from wrapit.jig.made import JigMaker, Made, Wires
 
 T = TypeVar("T")
 
 
-def make_jigs(work: Work, worker: Worker | None, folder: Path | None) -> None:
+def kinds_of(work: Work) -> tuple[JigKind, ...]:
+    """The kinds that the config asks for, each once."""
+    return tuple(dict.fromkeys(work.config.jigs))
+
+
+def jig_step(kind: JigKind) -> str:
+    """What the step is called that makes a kind."""
+    return f"jig {kind}"
+
+
+def jig_key(work: Work, kind: JigKind, *, files: bool) -> str:
+    """What the cache calls a jig, with its files or without."""
+    return work.key(jig_step(kind), files, work.exact)
+
+
+def mirrored_key(work: Work, *, files: bool) -> str:
+    """The same of the jig of the other earring."""
+    return work.key("mirrored jig", files, work.exact, upon=map(jig_step, kinds_of(work)))
+
+
+def wires_key(work: Work, *, mirror: bool) -> str:
+    """What the cache calls `wires.step`, or that of the other earring."""
+    return work.key("wires.step", mirror)
+
+
+def make_jigs(work: Work, kernel: OnCall, folder: Path | None) -> None:
     """Makes every kind that the config asks for; files of solids and flat drawings go to `folder`.
 
     Raises UnheldError where the first kind would hold too little, and what `JigMaker.make` raises. A further
     kind that would is left out, and an error among the findings says so.
     """
-    from wrapit.jig.kinds import JIGS
-
     with work.stage("jig"):
-        makers = [JIGS[kind] for kind in dict.fromkeys(work.config.jigs)]
-        made: dict[JigKind, Made | UnheldError] = {}
-        started: list[JigKind] = []
-        # Solids first: their process works while flat jigs are made here.
-        for maker in sorted(makers, key=lambda maker: not maker.solid):
-            if maker.plan is None or worker is None:
-                made[maker.kind] = flat = _tried(maker.make, work)
-                if isinstance(flat, Made) and folder is not None:
-                    # Written now, while solids are made in their own process.
-                    write_drawings(folder, flat, work.config)
+        keys = {kind: jig_key(work, kind, files=folder is not None) for kind in kinds_of(work)}
+        made: dict[JigKind, Outcome | UnheldError] = {}
+        for kind, key in keys.items():
+            if (recalled := work.recall(key, folder)) is not None:
+                made[kind] = recalled
+        missing = [kind for kind in keys if kind not in made]
+        if missing:
+            for kind, outcome in _made(work, kernel, folder, missing).items():
+                made[kind] = outcome
+                if isinstance(outcome, Outcome):
+                    work.keep(keys[kind], outcome, folder)
+        _take(work, {kind: made[kind] for kind in keys})
+        if work.config.pair:
+            _take_mirrored(work, kernel, folder)
+
+
+def _made(
+    work: Work, kernel: OnCall, folder: Path | None, kinds: Sequence[JigKind]
+) -> dict[JigKind, Outcome | UnheldError]:
+    from wrapit.jig.kinds import JIGS
+    from wrapit.pipeline.exporting import write_drawings
+    from wrapit.pipeline.solids import make_solids
+
+    made: dict[JigKind, Outcome | UnheldError] = {}
+    started: list[JigKind] = []
+    # Solids first: their process works while flat jigs are made here.
+    for maker in sorted((JIGS[kind] for kind in kinds), key=lambda maker: not maker.solid):
+        if maker.plan is None:
+            flat = _tried(maker.make, work)
+            if isinstance(flat, UnheldError):
+                made[maker.kind] = flat
                 continue
-            planned = _tried(maker.plan, work)
-            if isinstance(planned, UnheldError):
-                made[maker.kind] = planned
-                continue
-            making = _judged_too(planned, maker, work.laid, work.config) if work.exact else planned
-            worker.start(make_solids, making, work.config, folder)
-            started.append(maker.kind)
-        for kind in started:
-            made[kind] = _awaited(work, worker, "jig")
-        _take(work, {maker.kind: made[maker.kind] for maker in makers})
-        _make_mirrored(work, worker, folder)
+            # Written now, while solids are made in their own process.
+            names = write_drawings(folder, flat, work.config) if folder is not None else ()
+            made[maker.kind] = _outcome(flat, names)
+            continue
+        planned = _tried(maker.plan, work)
+        if isinstance(planned, UnheldError):
+            made[maker.kind] = planned
+            continue
+        making = _judged_too(planned, maker, work.laid, work.config) if work.exact else planned
+        kernel.worker().start(make_solids, making, work.config, folder)
+        started.append(maker.kind)
+    for kind in started:
+        made[kind] = _solid(_awaited(work, kernel, "jig"))
+    return made
 
 
 def _judged_too(
     planned: Callable[[], Made], maker: JigMaker, wires: Wires, config: Config
 ) -> Callable[[], Made]:
     """Makes the solids and has the kind's judge look at them."""
+    from wrapit.pipeline.solids import judged_solids
+
     return (
         planned
         if maker.judge is None
@@ -71,13 +121,21 @@ def _tried(make: Callable[[Wires, Config], T], work: Work) -> T | UnheldError:
         return unheld
 
 
-def _awaited(work: Work, worker: Worker | None, what: str) -> Any:
-    assert worker is not None
+def _awaited(work: Work, kernel: OnCall, what: str) -> Any:
     limit_s = work.config.jig.time_limit or 120 + 60 * len(work.wires)
-    return worker.result(f"{work.config.name}: {what}", limit_s)
+    return kernel.worker().result(f"{work.config.name}: {what}", limit_s)
 
 
-def _take(work: Work, made: dict[JigKind, Made | UnheldError]) -> None:
+def _outcome(made: Made, files: Sequence[str]) -> Outcome:
+    return Outcome(made, {made.block: made.numbers}, made.findings, files)
+
+
+def _solid(made: Made) -> Outcome:
+    """Each file of solids has its frame among the numbers."""
+    return _outcome(made, tuple(made.numbers.get("frames", ())))
+
+
+def _take(work: Work, made: dict[JigKind, Outcome | UnheldError]) -> None:
     """Puts what was made into the work, in the order of the config."""
     first = next(iter(made.values()))
     if isinstance(first, UnheldError):
@@ -86,9 +144,8 @@ def _take(work: Work, made: dict[JigKind, Made | UnheldError]) -> None:
         if isinstance(each, UnheldError):
             work.findings.append(_left_out(kind, each))
             continue
-        work.made[kind] = each
-        work.findings += each.findings
-        work.report[each.block] = each.numbers
+        work.kinds += (kind,)
+        work.take(jig_step(kind), each)
 
 
 def _left_out(kind: JigKind, unheld: UnheldError) -> Finding:
@@ -102,39 +159,61 @@ def _left_out(kind: JigKind, unheld: UnheldError) -> Finding:
 
 
 @contextlib.contextmanager
-def wires_beside(work: Work, worker: Worker | None, folder: Path, suffix: str = "") -> Iterator[None]:
-    """Has `wires{suffix}.step` written in the kernel's process while this one does something else."""
-    if worker is None or "step" not in work.config.outputs:
+def wires_beside(work: Work, kernel: OnCall, folder: Path, *, mirror: bool = False) -> Iterator[None]:
+    """Has `wires.step` written in the kernel's process while this one does something else."""
+    if "step" not in work.config.outputs:
         yield
         return
+    key = wires_key(work, mirror=mirror)
+    outcome = work.recall(key, folder)
+    name = "" if outcome is not None else _start_wires(work, kernel, folder, mirror=mirror)
+    yield
+    if outcome is None:
+        findings: tuple[Finding, ...] = _awaited(work, kernel, "wires")
+        said = [_of_mirrored(f) if mirror else f for f in findings]
+        outcome = work.keep(key, Outcome(findings=said, files=(name,)), folder)
+    work.findings += outcome.findings
+
+
+def _start_wires(work: Work, kernel: OnCall, folder: Path, *, mirror: bool) -> str:
+    """The name of the file that the kernel's process has begun."""
+    from wrapit.jig.made import MIRRORED
+    from wrapit.pipeline.solids import write_wires
     from wrapit.wires.mirror import mirrored, mirrored_ring
 
-    wires, ring = work.wires, work.ring
-    if suffix:
-        wires, ring = mirrored(wires), mirrored_ring(ring)
-    worker.start(write_wires, wires, ring, work.config, folder / f"wires{suffix}.step")
-    yield
-    findings: tuple[Finding, ...] = _awaited(work, worker, "wires")
-    work.findings += [_of_mirrored(f) if suffix else f for f in findings]
+    wires, ring, name = work.wires, work.ring, "wires.step"
+    if mirror:
+        wires, ring, name = mirrored(wires), mirrored_ring(ring), f"wires{MIRRORED}.step"
+    kernel.worker().start(write_wires, wires, ring, work.config, folder / name)
+    return name
 
 
-def _make_mirrored(work: Work, worker: Worker | None, folder: Path | None) -> None:
+def _take_mirrored(work: Work, kernel: OnCall, folder: Path | None) -> None:
     """The printed jig of the other earring (`pair`), if there is one of this."""
+    key = mirrored_key(work, files=folder is not None)
+    outcome = work.remember(key, lambda: _mirrored(work, kernel, folder), folder)
+    for block, numbers in outcome.blocks.items():
+        work.report[block] = {**work.report[block], "mirrored": numbers}
+    work.findings += outcome.findings
+    work.outcomes["mirrored jig"] = outcome
+
+
+def _mirrored(work: Work, kernel: OnCall, folder: Path | None) -> Outcome:
     from wrapit.jig.kinds import JIGS
+    from wrapit.jig.made import MIRRORED
     from wrapit.jig.printed.seats import mirrored_seats
+    from wrapit.pipeline.solids import make_solids
     from wrapit.wires.mirror import mirrored
 
-    maker = next((JIGS[kind] for kind in work.made if JIGS[kind].solid), None)
-    if not work.config.pair or worker is None or maker is None or maker.plan is None:
-        return
+    maker = next((JIGS[kind] for kind in work.kinds if JIGS[kind].solid), None)
+    if maker is None or maker.plan is None:
+        return Outcome()
     config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
     planned = maker.plan(mirrored(work.laid), config)
     making = _judged_too(planned, maker, mirrored(work.laid), config) if work.exact else planned
-    worker.start(make_solids, making, config, folder, MIRRORED)
-    made: Made = _awaited(work, worker, "mirrored jig")
-    work.mirrored = made
-    work.findings += map(_of_mirrored, made.findings)
-    work.report[made.block]["mirrored"] = made.numbers
+    kernel.worker().start(make_solids, making, config, folder, MIRRORED)
+    outcome = _solid(_awaited(work, kernel, "mirrored jig"))
+    return Outcome(outcome.value, outcome.blocks, tuple(map(_of_mirrored, outcome.findings)), outcome.files)
 
 
 def _of_mirrored(finding: Finding) -> Finding:

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 from wrapit import __version__
 from wrapit.config import Config, lock_text
-from wrapit.decomposition.json_file import decomposition_summary
-from wrapit.decomposition.model import Solution
-from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.pipeline.output.ownership import FORMAT, Artifact
-from wrapit.wires.model import JumpRing, Wire
-from wrapit.wires.springback import Overbent
+
+if TYPE_CHECKING:
+    from wrapit.decomposition.model import Solution
+    from wrapit.drawing.model import Drawing
+    from wrapit.wires.model import JumpRing, Wire
+    from wrapit.wires.springback import Overbent
 
 if TYPE_CHECKING:
     from wrapit.instructions.model import Guide
@@ -55,6 +56,8 @@ def drawing_numbers(drawing: Drawing, with_bridges: Drawing) -> dict[str, Any]:
 
 def decomposition_numbers(solution: Solution, fewest_possible_wires: int) -> dict[str, Any]:
     """The `decomposition` block."""
+    from wrapit.decomposition.json_file import decomposition_summary
+
     return {**decomposition_summary(solution), "fewest_possible_wires": fewest_possible_wires}
 
 

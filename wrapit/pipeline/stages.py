@@ -1,135 +1,169 @@
-"""The stages of a build, one after the other; the kernel's work in a process of its own beside them."""
+"""The stages of a build, one after the other; the kernel's work in a process of its own beside them.
+
+A stage takes steps (`reads` says what each depends on). A step is a function that returns an `Outcome`, and
+it isn't called where the cache holds what it would return.
+"""
 
 from __future__ import annotations
 
-import contextlib
 from pathlib import Path
+from typing import Any
 
 from wrapit.config import lock_text
-from wrapit.jig.made import MIRRORED
-from wrapit.pipeline import report as reports
-from wrapit.pipeline.exporting import (
-    write_alternatives,
-    write_guide,
-    write_views,
-)
-from wrapit.pipeline.jigs import make_jigs, wires_beside
-from wrapit.pipeline.solids import PRELOAD
+from wrapit.pipeline.cache.remembering import Outcome
+from wrapit.pipeline.cache.store import Store
+from wrapit.pipeline.exporting import write_alternatives, write_guide, write_sketch, write_views
+from wrapit.pipeline.jigs import jig_key, jig_step, kinds_of, make_jigs, mirrored_key, wires_beside, wires_key
+from wrapit.pipeline.output.ownership import sha256
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
-from wrapit.pipeline.worker import Worker
-from wrapit.wires.mirror import mirrored
-from wrapit.wires.model import Wire
+from wrapit.pipeline.worker import OnCall, Worker
 
 
 def run_stages(work: Work, folder: Path | None) -> None:
     """Runs the stages that are asked for; their files go to `folder`, unless there is none.
 
-    Raises the WrapItError of the stage that fails.
+    Raises the WrapItError of the stage that fails, UnreadableEntry where the cache holds what can't be read.
     """
-    with contextlib.ExitStack() as stack:
-        worker = stack.enter_context(Worker(PRELOAD)) if _needs_kernel(work) else None
+    with OnCall(_worker) as kernel:
+        if _needs_kernel(work, files=folder is not None):
+            kernel.worker()  # it loads while other stages run
         _trace(work, folder)
         if work.reaches("decomposition"):
             _decompose(work, folder)
         if work.reaches("wires"):
             _draw_wires(work, folder)
         if work.reaches("jig"):
-            make_jigs(work, worker, folder if work.reaches("exports") else None)
+            make_jigs(work, kernel, folder if work.reaches("exports") else None)
         if work.reaches("exports") and folder is not None:
-            _export(work, worker, folder)
+            _export(work, kernel, folder)
     if folder is not None:
         write_text(folder / "config.lock.yaml", lock_text(work.config))
 
 
-def _needs_kernel(work: Work) -> bool:
-    """Whether solids are made: those of a jig, or the wires' own."""
+def _worker() -> Worker:
+    from wrapit.pipeline.solids import PRELOAD
+
+    return Worker(PRELOAD)
+
+
+def _needs_kernel(work: Work, *, files: bool) -> bool:
+    """Whether solids will be made that the cache doesn't hold: those of a jig, or the wires' own."""
+    if not work.reaches("jig"):
+        return False
+    files = files and work.reaches("exports")
+    sides = ((False, True) if work.config.pair else (False,)) if "step" in work.config.outputs else ()
+    if files and not all(work.store.has(wires_key(work, mirror=mirror)) for mirror in sides):
+        return True
+    missing = [kind for kind in kinds_of(work) if not work.store.has(jig_key(work, kind, files=files))]
+    if work.config.pair and not work.store.has(mirrored_key(work, files=files)):
+        missing = list(kinds_of(work))
+    if not missing:
+        return False
     from wrapit.jig.kinds import JIGS
 
-    solid = any(JIGS[kind].solid for kind in work.config.jigs)
-    return (solid and work.reaches("jig")) or ("step" in work.config.outputs and work.reaches("exports"))
+    return any(JIGS[kind].solid for kind in missing)
 
 
 def _trace(work: Work, folder: Path | None) -> None:
-    with work.stage("drawing"):
+    def traced() -> Outcome:
+        from wrapit.drawing.stage import trace
+
+        drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
+        if sha256(work.drawing_path) != work.drawing_sha256:
+            work.store = Store()  # somebody saved it meanwhile: this is the drawing of no key
+        return Outcome(drawing, findings=findings)
+
+    def drawn() -> Outcome:
         from wrapit.decomposition.bridges import with_bridges
         from wrapit.drawing.json_file import drawing_json
-        from wrapit.drawing.stage import trace
         from wrapit.exports.drawing_svg import drawing_svg
+        from wrapit.pipeline.report import drawing_numbers
 
-        work.drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
-        work.findings += findings
+        assert work.drawing is not None
         shown = with_bridges(work.drawing) if work.config.decomposition.bridges else work.drawing
-        work.report["drawing"] = reports.drawing_numbers(work.drawing, shown)
+        files = {}
         if folder is not None:
-            write_text(folder / "drawing.json", drawing_json(shown))
-            write_text(folder / "drawing.svg", drawing_svg(shown))
+            files = {"drawing.json": drawing_json(shown), "drawing.svg": drawing_svg(shown)}
+            for name, text in files.items():
+                write_text(folder / name, text)
+        return Outcome(None, {"drawing": drawing_numbers(work.drawing, shown)}, files=tuple(files))
+
+    with work.stage("drawing"):
+        work.take("trace", work.remember(work.key("trace"), traced, None))
+        work.take("drawing", work.remember(work.key("drawing", folder is not None), drawn, folder))
 
 
 def _decompose(work: Work, folder: Path | None) -> None:
-    assert work.drawing is not None
-    with work.stage("decomposition"):
+    def decomposed() -> Outcome:
         from wrapit.decomposition.graph import fewest_possible_wires, graph_of
         from wrapit.decomposition.json_file import decomposition_json
         from wrapit.decomposition.stage import decompose
-        from wrapit.exports.decomposition_svg import decomposition_svg
-        from wrapit.wires.stage import draw_wires
+        from wrapit.pipeline.report import decomposition_numbers
 
-        work.solution, findings = decompose(work.drawing, work.config.decomposition)
-        work.findings += findings
-        fewest = fewest_possible_wires(graph_of(work.drawing))
-        work.report["decomposition"] = reports.decomposition_numbers(work.solution, fewest)
+        assert work.drawing is not None
+        solution, findings = decompose(work.drawing, work.config.decomposition)
+        numbers = decomposition_numbers(solution, fewest_possible_wires(graph_of(work.drawing)))
         if folder is not None:
-            write_text(folder / "decomposition.json", decomposition_json(work.solution))
-            if not work.reaches("wires"):
-                wires, _ = draw_wires(work.solution, work.config)
-                write_text(folder / "decomposition.svg", decomposition_svg(work.solution, wires))
-            if work.alternatives:
-                write_alternatives(folder, work.drawing, work.config, work.alternatives)
+            write_text(folder / "decomposition.json", decomposition_json(solution))
+        files = ("decomposition.json",) if folder is not None else ()
+        return Outcome(solution, {"decomposition": numbers}, findings, files)
+
+    with work.stage("decomposition"):
+        key = work.key("decomposition", folder is not None)
+        work.take("decomposition", work.remember(key, decomposed, folder))
+        if folder is not None and not work.reaches("wires"):
+            work.remember(work.key("sketch"), lambda: write_sketch(work, folder), folder)
+        if folder is not None and work.alternatives:
+            key = work.key("alternatives", work.alternatives)
+            work.remember(key, lambda: write_alternatives(work, folder), folder)
 
 
 def _draw_wires(work: Work, folder: Path | None) -> None:
-    assert work.solution is not None
-    with work.stage("wires"):
+    def drawn() -> Outcome:
         from wrapit.exports.decomposition_svg import decomposition_svg
+        from wrapit.pipeline.report import bail_numbers, wire_numbers
         from wrapit.wires.jump_ring import jump_ring
         from wrapit.wires.stage import draw_wires
 
-        work.wires, findings = draw_wires(work.solution, work.config)
-        work.findings += findings
-        work.report["wires"] = reports.wire_numbers(work.wires)
-        work.laid = _laid(work)
-        work.ring, placed = jump_ring(work.wires, work.solution.decomposition.drawing, work.config)
-        work.findings += placed
+        assert work.solution is not None
+        wires, findings = draw_wires(work.solution, work.config)
+        blocks: dict[str, Any] = {"wires": wire_numbers(wires)}
+        ring, placed = jump_ring(wires, work.solution.decomposition.drawing, work.config)
         if work.config.bail is not None:
-            work.report["bail"] = reports.bail_numbers(work.wires, work.ring)
+            blocks["bail"] = bail_numbers(wires, ring)
         if folder is not None:
-            write_text(folder / "decomposition.svg", decomposition_svg(work.solution, work.wires))
+            write_text(folder / "decomposition.svg", decomposition_svg(work.solution, wires))
+        files = ("decomposition.svg",) if folder is not None else ()
+        return Outcome((wires, ring), blocks, (*findings, *placed), files)
+
+    def laid() -> Outcome:
+        from wrapit.jig.overbending import overbend_wires
+        from wrapit.pipeline.report import springback_numbers
+
+        bent, findings = overbend_wires(work.wires, work.config)
+        return Outcome(tuple(each.wire for each in bent), {"springback": springback_numbers(bent)}, findings)
+
+    with work.stage("wires"):
+        work.take("wires", work.remember(work.key("wires", folder is not None), drawn, folder))
+        if work.config.jig.springback == "compensate":
+            work.take("laid", work.remember(work.key("laid"), laid, None))
 
 
-def _laid(work: Work) -> tuple[Wire, ...]:
-    if work.config.jig.springback == "report":
-        return work.wires
-    from wrapit.jig.overbending import overbend_wires
-
-    bent, findings = overbend_wires(work.wires, work.config)
-    work.findings += findings
-    work.report["springback"] = reports.springback_numbers(bent)
-    return tuple(each.wire for each in bent)
-
-
-def _export(work: Work, worker: Worker | None, folder: Path) -> None:
-    assert work.solution is not None
-    jigs = list(work.made.values())
+def _export(work: Work, kernel: OnCall, folder: Path) -> None:
     with work.stage("exports"):
-        with wires_beside(work, worker, folder):
-            write_views(folder, work.wires, jigs[0])
+        with wires_beside(work, kernel, folder):
+            _show(work, folder)
             if {"html", "pdf"} & set(work.config.outputs):
-                guide, told = write_guide(
-                    folder, work.solution, work.wires, jigs, work.mirrored, work.ring, work.config
-                )
-                work.report["guide"] = reports.guide_numbers(guide)
-                work.findings += told
-        if work.mirrored is not None:
-            with wires_beside(work, worker, folder, MIRRORED):
-                write_views(folder, mirrored(work.wires), work.mirrored, MIRRORED)
+                key = work.key("guide", upon=map(jig_step, kinds_of(work)))
+                work.take("guide", work.remember(key, lambda: write_guide(work, folder), folder))
+        if work.has_mirrored:
+            with wires_beside(work, kernel, folder, mirror=True):
+                _show(work, folder, mirror=True)
+
+
+def _show(work: Work, folder: Path, *, mirror: bool = False) -> None:
+    """Pictures of the first jig, or of the mirror image of the one that has one."""
+    kinds = kinds_of(work) if mirror else work.kinds[:1]
+    key = work.key("views", mirror, upon=map(jig_step, kinds))
+    work.remember(key, lambda: write_views(work, folder, mirror=mirror), folder)

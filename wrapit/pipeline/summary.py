@@ -65,6 +65,12 @@ def finding_lines(result: Build, *, every: bool) -> Iterator[str]:
             yield _line(kind[0], others=len(kind) - 1)
 
 
+def timing_lines(result: Build) -> Iterator[str]:
+    """What each stage took, and whether the cache held all of it."""
+    for stage, seconds in result.timings_s.items():
+        yield f"{stage:<14}{seconds:7.2f} s{' from the cache' if stage in result.cached else ''}"
+
+
 def _line(finding: dict[str, Any], others: int = 0) -> str:
     more = f" (the worst of {others + 1}; -v shows all)" if others else ""
     where = f"{finding['where']}: " if finding["where"] else ""

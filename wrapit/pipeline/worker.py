@@ -94,6 +94,28 @@ class Worker:
         self._connection.close()
 
 
+class OnCall:
+    """A worker that is started when it is first asked for, if ever."""
+
+    def __init__(self, hired: Callable[[], Worker]) -> None:
+        self._hired = hired
+        self._worker: Worker | None = None
+        self._stack = contextlib.ExitStack()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stack.close()
+
+    def worker(self) -> Worker:
+        if self._worker is None:
+            self._worker = self._stack.enter_context(self._hired())
+        return self._worker
+
+
 def _start_tracker() -> None:
     """Python's own helper process; started later, it would let signals through to the worker's start."""
     if sys.platform != "win32":

@@ -1,0 +1,83 @@
+"""What each step of a build depends on: other steps, and keys of the config. Here alone it is said.
+
+A step that reads more than is said here would be answered with what was made for another config.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, Final
+
+from wrapit.config import Config
+from wrapit.pipeline.cache.fingerprint import key_of
+
+
+@dataclass(frozen=True)
+class Step:
+    """`upon` are steps whose values it takes; `reads` keys of the config, or blocks with all their keys."""
+
+    upon: tuple[str, ...] = ()
+    reads: tuple[str, ...] = ()
+
+
+# Of `jig`, wires are drawn by what makes a turn and what a post needs; jigs by all of it.
+_OF_TURNS = tuple(
+    f"jig.{key}"
+    for key in (
+        "clearance",
+        "long_segment",
+        "min_wall_width",
+        "post_bends",
+        "springback",
+        "support",
+        "turn_angle",
+        "turn_curvature",
+    )
+)
+STEPS: Final[dict[str, Step]] = {
+    "trace": Step(reads=("size", "tracing")),
+    "drawing": Step(("trace",), ("decomposition.bridges",)),
+    "decomposition": Step(("trace",), ("decomposition",)),
+    "sketch": Step(("wires",)),
+    "alternatives": Step(("wires",)),
+    "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", *_OF_TURNS)),
+    "laid": Step(("wires",), ("jig",)),
+    "jig printed": Step(("laid",), ("name", "outputs", "pair")),
+    "jig sheet": Step(("laid",), ("plate", "outputs", "pair")),
+    "jig pegs": Step(("laid",), ("pegs", "plate", "outputs", "pair")),
+    "mirrored jig": Step(("jig printed",), ("jigs",)),
+    "wires.step": Step(("wires",), ("name", "jig.base_thickness")),
+    "views": Step(("wires",)),
+    "guide": Step(("mirrored jig",), ("jigs", "guide")),
+}
+"""Steps by name. `jig sheet` and so on are those of a kind."""
+
+# A jig kind that isn't named above: whatever it reads, it is made again when the config changes.
+_WHOLE: Final = Step(("laid",), tuple(Config.model_fields))
+
+
+class Keys:
+    """Keys of the steps of one build: hashes of the drawing and of the parts of the config that it reads."""
+
+    def __init__(self, config: Config, drawing_sha256: str, suffix: str) -> None:
+        self._settings = config.model_dump(mode="json")
+        self._drawing = (drawing_sha256, suffix)
+
+    def of(self, step: str, *also: Any, upon: Iterable[str] = ()) -> str:
+        """The key of a step; `also` is JSON that it depends on too, `upon` more steps that it is upon."""
+        read = {path for each in (step, *upon) for path in all_reads(each)}
+        settings = {path: _part(self._settings, path) for path in read}
+        return key_of(step, self._drawing, settings, *also)
+
+
+def all_reads(step: str) -> set[str]:
+    """Keys of the config that a step depends on, itself and by way of others."""
+    said = STEPS.get(step, _WHOLE)
+    return set(said.reads).union(*map(all_reads, said.upon))
+
+
+def _part(settings: Any, path: str) -> Any:
+    for name in path.split("."):
+        settings = settings[name]
+    return settings
