@@ -200,6 +200,9 @@ SHEET: Final = {
 """What the laser-cut jig, and the shop that cuts it, ask for."""
 
 FILES: Final = {
+    "cache": Saying(
+        "nothing of this build could be kept for the next one", "free space, or set `WRAPIT_CACHE`"
+    ),
     "file-kept": Saying(
         "somebody wrote or changed a file of the output folder, so it stays", "move it away, and build again"
     ),

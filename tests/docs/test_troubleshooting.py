@@ -28,6 +28,8 @@ ELSEWHERE = {
     ("drawing/bitmap/page/stage.py", "*_about_ground(ground)"): {"dark-table", "dark-edge"},
     ("drawing/svg/seen/told.py", "losses[0].what"): set(get_args(What)),
     ("drawing/svg/remarks.py", "code"): {code for code, *_ in remarks._KINDS.values()},
+    # Recalled as they were given.
+    ("pipeline/cache/remembering.py", "{**said, 'places_mm': tuple(said['places_mm'])}"): set(),
     ("jig/sheet/shops.py", "f'shop-narrow-{what}'"): {"shop-narrow-hole", "shop-narrow-part"},
 }
 
@@ -37,10 +39,12 @@ def given(source: str) -> Iterator[str | ast.expr]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call):
             name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-            if name in TAKES:
+            of_another_kind = name == "tell" and len(node.args) == 1  # the studio's, of a message
+            if name in TAKES and not of_another_kind:
                 named = [keyword.value for keyword in node.keywords if keyword.arg == "code"]
                 starred = [each for each in node.args[: TAKES[name] + 1] if isinstance(each, ast.Starred)]
-                (code,) = named or starred or [node.args[TAKES[name]]]
+                spread = [keyword.value for keyword in node.keywords if keyword.arg is None]
+                (code,) = named or starred or spread or [node.args[TAKES[name]]]
                 yield code.value if isinstance(code, ast.Constant) else code
 
 

@@ -16,7 +16,7 @@ import wrapit.cli.batch_command
 import wrapit.cli.commands
 import wrapit.cli.starting
 import wrapit.cli.studio_command
-import wrapit.cli.telling  # noqa: F401  they register what they hold
+import wrapit.cli.facts  # noqa: F401  they register what they hold
 from wrapit.calling import PROGRAM, pasted
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
