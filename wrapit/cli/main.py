@@ -12,12 +12,10 @@ import threading
 from types import FrameType
 from typing import Any, NoReturn
 
-import wrapit.cli.batch_command
-import wrapit.cli.commands
-import wrapit.cli.starting
-import wrapit.cli.studio_command
-import wrapit.cli.facts  # noqa: F401  they register what they hold
 from wrapit.calling import PROGRAM, pasted
+
+# Imported, they register what they hold.
+from wrapit.cli import batch_command, commands, facts, starting, studio_command  # noqa: F401
 from wrapit.cli.app import app, say
 from wrapit.errors import WrapItError
 
