@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from wrapit.config import Config
-from wrapit.config.loading import default_config
+from wrapit.config.loading import config_without_drawing
 from wrapit.studio.controls import CONTROLS, constraint_entries, controls, field_at, from_page
 from wrapit.studio.fixes import fixes
 from wrapit.studio.text.history import History
@@ -58,7 +58,7 @@ def test_what_a_control_offers_is_taken(control: dict[str, Any]) -> None:
 
 
 def test_a_default_is_the_config_s() -> None:
-    config = default_config()
+    config = config_without_drawing()
     for control in controls({}):
         if control["default"] is None or control["key"].startswith("bail"):
             continue
