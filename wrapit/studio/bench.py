@@ -21,6 +21,7 @@ from typing import Any, Final
 
 from wrapit.errors import WrapItError
 from wrapit.pipeline.output.guards import let_through
+from wrapit.units import printable
 
 ORDERS: Final = "wrapit.studio.orders"
 """Where the orders are; imported there and not here, for it loads what takes a second."""
@@ -102,7 +103,7 @@ class Bench:
             "code": "stopped",
             "problem": f"the build's process ended (exit code {process.exitcode})",
             "where": "",
-            "remedy": "close other programs if memory ran out, and save the config again to build anew",
+            "remedy": "close other programs if memory ran out, and try again",
         }
         self._hand_over(loop, number, {"ended": problem})
 
@@ -120,7 +121,12 @@ class Bench:
 
 def told(error: WrapItError) -> dict[str, str]:
     """A mistake as the page gets it."""
-    return {"code": error.code, "problem": error.problem, "where": error.where, "remedy": error.remedy}
+    return {
+        "code": error.code,
+        "problem": error.problem,
+        "where": printable(error.where),
+        "remedy": error.remedy,
+    }
 
 
 def _end(process: Any) -> None:
