@@ -288,7 +288,7 @@ def test_a_tab_that_nobody_sees_holds_no_line(page: Page, studio: Studio) -> Non
 
 
 def test_a_state_of_any_kind_is_shown(page: Page) -> None:
-    """What can't be built, and a search for alternatives that failed, are said; nothing is asked of nothing."""
+    """What can't be built, and a search for alternatives that failed, are said."""
     error = {"code": "stopped", "problem": "it ended", "where": "", "remedy": "try again", "fixes": []}
     changed = {"alternatives": {"error": error}, "problem": error, "again": True}
     changed["building"] = {"stage": "starting", "done": [], "stages": []}

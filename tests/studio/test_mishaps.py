@@ -150,7 +150,7 @@ def test_a_name_that_changes_takes_the_build_along(tmp_path: Path) -> None:
         assert (tmp_path / "build" / "leaf" / "report.json").is_file()
 
 
-def fails_in_its_own_words(tell: object) -> None:
+def fails_in_its_own_words(_: object) -> None:
     """An order amid which a signal comes while a library runs that makes another error of all errors."""
     try:
         os.kill(os.getpid(), signal.SIGTERM)
@@ -162,9 +162,9 @@ def fails_in_its_own_words(tell: object) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="there a process is ended without a word")
 def test_a_process_that_is_to_leave_says_nothing_of_it() -> None:
     code = (
-        "import signal; from wrapit.studio import bench; from tests.studio import test_mishaps as t;"
+        "import signal, types; from wrapit.studio import bench; from tests.studio import test_mishaps as t;"
         "signal.signal(signal.SIGTERM, bench._leave);"
-        "bench._outcome(lambda send: t.fails_in_its_own_words(send), None, ())"
+        "bench._outcome(t.fails_in_its_own_words, types.SimpleNamespace(send=None), ())"
     )
     ran = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert (ran.returncode, ran.stderr) == (128 + signal.SIGTERM, "")

@@ -163,6 +163,11 @@ def test_a_larger_size_is_larger_and_taken(size: str) -> None:
         assert config.size > float(size.removesuffix(" mm"))
 
 
+def test_one_wire_is_not_parted() -> None:
+    remedy = "press it by hand, or set jig.split to per-wire"
+    assert [len(fixes(remedy, "", DATA, wires=count)) for count in (0, 1, 2)] == [1, 0, 1]
+
+
 def test_the_size_of_the_piece_stands_in_for_that_of_the_config() -> None:
     assert fixes("make the piece larger", "", {"drawing": "bee.svg"}) == []
     [first, _] = fixes("make the piece larger", "", {"drawing": "bee.svg"}, 62.5)

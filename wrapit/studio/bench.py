@@ -168,9 +168,7 @@ def _outcome(order: Callable[..., None], connection: Connection, arguments: Any)
             "remedy": remedy,
         }
     except Exception as error:  # noqa: BLE001  the page says that it is our mistake, the terminal which
-        if (
-            signal.getsignal(signal.SIGTERM) is signal.SIG_IGN
-        ):  # a library made its own of `_leave`'s SystemExit
+        if signal.getsignal(signal.SIGTERM) is signal.SIG_IGN:  # a library made this of SystemExit
             raise SystemExit(128 + signal.SIGTERM) from None
         print(traceback.format_exc(), file=sys.stderr)
         summary = " ".join(f"{type(error).__name__}: {error}".split())[-300:]

@@ -45,11 +45,13 @@ _SAYING: Final = {"size": "Make it {}", "decomposition.choice": "Take alternativ
 Fix = dict[str, Any]
 
 
-def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None) -> list[Fix]:
+def fixes(
+    remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None, wires: int = 0
+) -> list[Fix]:
     """What to offer as buttons: a label and the change that it makes; the config `data` takes each.
 
     `where` is the place of a mistake in a config, whose key the remedy is about; `size_mm` is the piece's
-    size where the config doesn't say it.
+    size where the config doesn't say it, `wires` how many it has, as far as is known: one can't be parted.
 
     >>> data = {"drawing": "bee.png", "size": "63 mm"}
     >>> for fix in fixes("make the piece larger, or set jig.split to per-wire", "wire-01", data):
@@ -63,7 +65,8 @@ def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | Non
     offered: list[Fix] = []
     for fix in (*_settings(remedy), *_corrections(remedy, where, data), *measures):
         then = _config(data, fix["change"])
-        if fix not in offered and then is not None and then != now:
+        parted = wires == 1 and "jig.split" in fix["change"].get("set", ())
+        if not parted and fix not in offered and then is not None and then != now:
             offered.append(fix)
     return offered
 

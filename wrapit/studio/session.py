@@ -83,7 +83,9 @@ class Session:
     def _state(self) -> Message:
         now, building = self._now, self._building
         data = finite(now.data)
-        buttons = functools.cache(functools.partial(fixes, data=data, size_mm=building.size_mm))
+        buttons = functools.cache(
+            functools.partial(fixes, data=data, size_mm=building.size_mm, wires=len(building.shown["wires"]))
+        )
         problem = told(now.problem) if now.problem is not None else building.problem
         return {
             "revision": self._revision,
