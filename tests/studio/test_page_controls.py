@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from wrapit.config import Config
 from wrapit.config.loading import config_without_drawing
+from wrapit.errors import ConfigError
 from wrapit.studio.controls import CONTROLS, constraint_entries, controls, field_at, from_page
 from wrapit.studio.fixes import fixes
+from wrapit.studio.text.editing import Change, edited
 from wrapit.studio.text.history import History
-from wrapit.studio.text.values import with_value, without_value
+from wrapit.studio.text.values import finite, with_value, without_value
 
 DATA: dict[str, Any] = {"drawing": "bee.png", "size": "40 mm"}
+# What YAML can say at a key.
+SCALARS = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8)
+VALUES = st.recursive(
+    SCALARS,
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text("abc", min_size=1), inner, max_size=2)
+    ),
+    max_leaves=6,
+)
 # Keys that a later config may have; the page offers them as soon as it does.
 COMING = {"decomposition.choice"}
 
@@ -112,7 +127,7 @@ def test_a_constraint_of_each_kind_has_a_sentence() -> None:
         ("make the piece larger, or use thinner or softer wire", ["size", "size", {"wire.gauge": "20 AWG"}]),
         (
             "make the piece larger, take thinner wire, or leave sheet out of `jigs`",
-            ["size", "size", "wire.gauge"],
+            ["size", "size", "wire.gauge", {"jigs": ["printed"]}],
         ),
         (
             "extend its line, or set decomposition.refine_dangling: auto",
@@ -121,6 +136,10 @@ def test_a_constraint_of_each_kind_has_a_sentence() -> None:
         ("join them with a line, set decomposition.bridges: true, or not", [{"decomposition.bridges": True}]),
         ("set jig.split to auto or per-wire, or leave it", [{"jig.split": "per-wire"}]),
         ("set plate.wall_sheet to a thicker sheet to need only one", []),
+        ("enlarge the piece, or make the wire thinner", ["size", "size", "wire.gauge"]),
+        ("leave it out of `jigs`, or go larger", ["size", "size"]),
+        ("leave pdf out of `outputs`", ["outputs"]),
+        ("no size up to 1000 mm and no wire would do: simplify the drawing", []),
         ("scan at a higher resolution", []),
         ("", []),
     ],
@@ -144,6 +163,11 @@ def test_a_larger_size_is_larger_and_taken(size: str) -> None:
         assert config.size > float(size.removesuffix(" mm"))
 
 
+def test_one_wire_is_not_parted() -> None:
+    remedy = "press it by hand, or set jig.split to per-wire"
+    assert [len(fixes(remedy, "", DATA, wires=count)) for count in (0, 1, 2)] == [1, 0, 1]
+
+
 def test_the_size_of_the_piece_stands_in_for_that_of_the_config() -> None:
     assert fixes("make the piece larger", "", {"drawing": "bee.svg"}) == []
     [first, _] = fixes("make the piece larger", "", {"drawing": "bee.svg"}, 62.5)
@@ -158,6 +182,58 @@ def test_a_mistake_of_the_text_has_its_button() -> None:
     assert fix["change"] == {"set": {"wire.metal": "copper"}}
     offered = fixes("write for example '9 mm' or '9 in'", "bee.yaml:2:1 size", DATA | {"size": 9})
     assert [fix["change"]["set"]["size"] for fix in offered] == ["9 mm", "9 in"]
+
+
+@pytest.mark.parametrize("where", ["decomposition.choice", "bee.yaml:3:5 decomposition.choice"])
+def test_an_alternative_that_there_isn_t_has_buttons(where: str) -> None:
+    data = DATA | {"decomposition": {"choice": 9}}
+    first, last = fixes("choose between 1 and 4", where, data)
+    assert first == {"label": "Take alternative 1", "change": {"set": {"decomposition.choice": 1}}}
+    assert last["change"] == {"set": {"decomposition.choice": 4}}
+    [away] = fixes("take it away", where, data)
+    assert away["change"] == {"unset": ["decomposition.choice"]}
+
+
+def test_a_range_offers_its_ends() -> None:
+    config = {"decomposition": {"weights": {"smoothness": 1e9}}}
+    with pytest.raises(ValidationError) as told:
+        Config.model_validate(DATA | config)
+    remedy = told.value.errors()[0]["msg"]
+    offered = fixes(remedy, "bee.yaml:3:5 decomposition.weights.smoothness", DATA | config)
+    assert len(offered) == 2
+    for fix in offered:
+        applied(fix["change"], DATA)
+
+
+@settings(max_examples=300)
+@given(key=st.sampled_from([f"{block}.{name}".strip(".") for _, block, name, _ in CONTROLS]), value=VALUES)
+def test_whatever_a_text_says_can_be_shown(key: str, value: Any) -> None:
+    """Also where no build would take it: the page shows the last good state, and the text to mend."""
+    said = finite(with_value({"drawing": "bee.png"}, key, value))
+    shown = {each["key"]: each for each in controls(said)}
+    json.dumps([list(shown.values()), constraint_entries(said)], allow_nan=False)
+    kinds: dict[str, type | tuple[type, ...]] = {"choices": list, "switch": bool}
+    for each in shown.values():
+        assert isinstance(each["value"], kinds.get(each["kind"], (str, int, float, type(None)))), each
+
+
+def test_a_choice_is_shown_as_the_list_spells_it() -> None:
+    said = {"wire": {"metal": "Copper", "temper": "dead_soft"}, "jigs": ["Printed"], "outputs": "HTML"}
+    shown = {each["key"]: each for each in controls(DATA | said)}
+    assert shown["wire.metal"]["value"] in shown["wire.metal"]["choices"]
+    assert shown["wire.temper"]["value"] in shown["wire.temper"]["choices"]
+    assert shown["jigs"]["value"] == ["printed"]
+    assert shown["outputs"]["value"] == ["html"]
+
+
+@pytest.mark.parametrize("constraints", [3, "x", [None, 3, [1], {}, {"at": 3}], {"same_wire": [1, 2]}])
+def test_constraints_that_are_none_do_no_harm(constraints: Any) -> None:
+    entries = constraint_entries({"decomposition": {"constraints": constraints}})
+    assert all(isinstance(each["constraint"], dict) and each["text"] is not None for each in entries)
+    if not isinstance(constraints, list):
+        text = f"decomposition: {{constraints: {json.dumps(constraints)}}}\n"
+        with pytest.raises(ConfigError, match="no list"):
+            edited(text, Change(release=[0]))
 
 
 def test_history_passes_over_what_does_not_hold() -> None:

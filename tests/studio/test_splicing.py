@@ -167,6 +167,16 @@ def test_constraints_come_and_go_by_their_number(text: str, data: st.DataObject)
             {"set": {"guide.units": "mm"}},
             "drawing: a.png\nguide: &g {units: mm}\nname: x\n",
         ),
+        (
+            "drawing: a.png\njigs: [\n  pegs,  # a\n  sheet,  # b\n]\n",
+            {"set": {"jigs": ["sheet"]}},
+            "drawing: a.png\njigs: [\n  sheet,  # b\n]\n",
+        ),
+        (
+            "drawing: a.png\njigs: [\n  pegs,  # a\n  sheet,  # b\n]\n",
+            {"set": {"jigs": ["pegs"]}},
+            "drawing: a.png\njigs: [\n  pegs,  # a\n]\n",
+        ),
     ],
 )
 def test_samples(before: str, change: dict[str, Any], after: str) -> None:

@@ -50,14 +50,13 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
 
     proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
     target = output if output is not None else drawing.with_suffix(".yaml")
+    elsewhere = f"choose another file: {pasted('init', argument(drawing), '-o', 'FILE')}"
     if os.path.lexists(target):
-        raise ConfigError("exists already", str(target), "choose another file with -o")
+        raise ConfigError("exists already", str(target), elsewhere)
     try:
         write_whole(target, proposal.text())
     except OSError as error:
-        raise ConfigError(
-            f"can't be written ({error.strerror})", str(target), "choose another file with -o"
-        ) from None
+        raise ConfigError(f"can't be written ({error.strerror})", str(target), elsewhere) from None
     for finding in proposal.findings:
         say(f"{finding.level}: {finding.where}: {finding.message}")
     if not makeable:

@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator, Callable
 from typing import Any, Final
 
 from starlette.applications import Starlette
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 from starlette.types import ASGIApp
@@ -71,6 +71,7 @@ def application(session: Session, door: Door) -> ASGIApp:
                 _post("/text", lambda body: session.replace(*_text(body))),
                 _post("/undo", lambda body: session.undo()),
                 _post("/redo", lambda body: session.redo()),
+                _post("/again", lambda body: session.again()),
                 _post("/alternatives", lambda body: session.find_alternatives(_count(body)), 202),
             ],
             lifespan=life,
@@ -92,6 +93,8 @@ def _post(path: str, act: Callable[[Any], int], status: int = 200) -> Route:
             return JSONResponse({"revision": act(await _document(request))}, status)
         except RefusedError as refused:
             return JSONResponse({"error": refused.error}, refused.status)
+        except ClientDisconnect:  # amid its request: nobody is there to read an answer
+            return Response(status_code=400)
 
     return Route(path, answer, methods=["POST"])
 

@@ -21,7 +21,11 @@ from typing import Any, Final
 
 from wrapit.errors import WrapItError
 from wrapit.pipeline.output.guards import let_through
+<<<<<<< HEAD
 from wrapit.pipeline.worker import nothing_on_stdout
+=======
+from wrapit.units import printable
+>>>>>>> helper-rev1
 
 ORDERS: Final = "wrapit.studio.orders"
 """Where the orders are; imported there and not here, for it loads what takes a second."""
@@ -103,7 +107,7 @@ class Bench:
             "code": "stopped",
             "problem": f"the build's process ended (exit code {process.exitcode})",
             "where": "",
-            "remedy": "close other programs if memory ran out, and save the config again to build anew",
+            "remedy": "close other programs if memory ran out, and try again",
         }
         self._hand_over(loop, number, {"ended": problem})
 
@@ -121,7 +125,12 @@ class Bench:
 
 def told(error: WrapItError) -> dict[str, str]:
     """A mistake as the page gets it."""
-    return {"code": error.code, "problem": error.problem, "where": error.where, "remedy": error.remedy}
+    return {
+        "code": error.code,
+        "problem": error.problem,
+        "where": printable(error.where),
+        "remedy": error.remedy,
+    }
 
 
 def _end(process: Any) -> None:
@@ -162,6 +171,8 @@ def _outcome(order: Callable[..., None], connection: Connection, arguments: Any)
             "remedy": remedy,
         }
     except Exception as error:  # noqa: BLE001  the page says that it is our mistake, the terminal which
+        if signal.getsignal(signal.SIGTERM) is signal.SIG_IGN:  # a library made this of SystemExit
+            raise SystemExit(128 + signal.SIGTERM) from None
         print(traceback.format_exc(), file=sys.stderr)
         summary = " ".join(f"{type(error).__name__}: {error}".split())[-300:]
         return {

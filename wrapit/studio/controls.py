@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from wrapit.config import Config
+from wrapit.config.choices import meant
 from wrapit.config.quantities import PlaceRange
 from wrapit.config.ranges import Mark, NumberRange, QuantityRange
 from wrapit.studio.text.values import value_at
@@ -72,6 +73,7 @@ def controls(data: Mapping[str, Any]) -> list[dict[str, Any]]:
             value = given is not missing and given is not None
         elif key.startswith("bail.") and value is not None:
             value = value if isinstance(value, str) else str(value).replace("'", "")
+        value = _shown(about, value)
         head = {"key": key, "group": group, "label": label, "help": field.description or _of_block(field)}
         result.append({**head, **about, "value": value, "given": given is not missing})
     return result
@@ -85,7 +87,10 @@ def constraint_entries(data: Mapping[str, Any]) -> list[dict[str, Any]]:
     """
     listed = value_at(data, "decomposition.constraints")
     items = listed if isinstance(listed, list) else []
-    return [{"index": index, "text": _sentence(item), "constraint": item} for index, item in enumerate(items)]
+    return [
+        {"index": index, "text": _sentence(item), "constraint": item if isinstance(item, dict) else {}}
+        for index, item in enumerate(items)
+    ]
 
 
 def field_at(key: str) -> FieldInfo | None:
@@ -113,6 +118,19 @@ def from_page(key: str, value: Any) -> Any:
     if isinstance(_mark(field), PlaceRange) and isinstance(value, str) and value.strip() != "top":
         return _place(value.strip())
     return None if value == "" else value
+
+
+def _shown(about: Mapping[str, Any], value: Any) -> Any:
+    """A value as its control can show it: a choice as the list spells it, and whatever a text that doesn't
+    hold says there."""
+    words = about.get("choices", [])
+    if about["kind"] == "choices":
+        listed = value if isinstance(value, list) else [value] if value else []
+        return [str(meant(each, words)) for each in listed]
+    if about["kind"] == "switch":
+        return value is True
+    value = meant(value, words) if words else value
+    return str(value) if isinstance(value, dict | list) else value
 
 
 def _place(text: str) -> Any:

@@ -32,19 +32,26 @@ _VALUE: Final = r"\[[^\]]*\]|\d+(?:\.\d+)? ?(?:mm|AWG|deg|°)|[\w./-]*\w"
 _SETTING: Final = re.compile(rf"\b([a-z_]+(?:\.[a-z_]+)*)(?:: | to )({_VALUE})(?: or ({_VALUE}))?")
 _FOR_EXAMPLE: Final = re.compile(r"write for example (.+)")
 _INSTEAD: Final = re.compile(r"did you mean '([^']+)'")
-_LARGER: Final = re.compile(r"\b(?:piece (?:\d+ mm )?|draw it )larger\b")
-_THINNER: Final = re.compile(r"\bthinner (?:or softer )?wire\b")
+_BETWEEN: Final = re.compile(r"choose between (.+) and (.+)")
+_TAKE_AWAY: Final = re.compile(r"\btake it away\b")
+_LEAVE_OUT: Final = re.compile(r"\bleave (\w+) out of `(jigs|outputs)`")
+_LARGER: Final = re.compile(r"\b(?:piece (?:\d+ mm )?|draw it |go )larger\b|\benlarge the piece\b")
+_THINNER: Final = re.compile(r"\bthinner (?:or softer )?wire\b|\bthe wire thinner\b")
 _SOFTER: Final = re.compile(r"\bsofter wire\b")
-# The place of a mistake in a config: file, line, column, key.
-_KEY_OF: Final = re.compile(r"^.*:\d+:\d+ ([a-z_]+(?:\.[a-z_]+)*)$", re.DOTALL)
+# The place of a mistake in a config: file, line, column, key; or the key alone.
+_KEY_OF: Final = re.compile(r"^(?:.*:\d+:\d+ )?([a-z_]+(?:\.[a-z_]+)*)$", re.DOTALL)
+# What pressing a button does, where "Set key: value" would be no word of a maker's.
+_SAYING: Final = {"size": "Make it {}", "decomposition.choice": "Take alternative {}"}
 Fix = dict[str, Any]
 
 
-def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None) -> list[Fix]:
+def fixes(
+    remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None, wires: int = 0
+) -> list[Fix]:
     """What to offer as buttons: a label and the change that it makes; the config `data` takes each.
 
     `where` is the place of a mistake in a config, whose key the remedy is about; `size_mm` is the piece's
-    size where the config doesn't say it.
+    size where the config doesn't say it, `wires` how many it has, as far as is known: one can't be parted.
 
     >>> data = {"drawing": "bee.png", "size": "63 mm"}
     >>> for fix in fixes("make the piece larger, or set jig.split to per-wire", "wire-01", data):
@@ -58,7 +65,8 @@ def fixes(remedy: str, where: str, data: Mapping[str, Any], size_mm: float | Non
     offered: list[Fix] = []
     for fix in (*_settings(remedy), *_corrections(remedy, where, data), *measures):
         then = _config(data, fix["change"])
-        if fix not in offered and then is not None and then != now:
+        parted = wires == 1 and "jig.split" in fix["change"].get("set", ())
+        if not parted and fix not in offered and then is not None and then != now:
             offered.append(fix)
     return offered
 
@@ -69,9 +77,7 @@ def _settings(remedy: str) -> Iterator[Fix]:
         if field_at(key) is None:
             continue
         for text in filter(None, values):
-            value = _read(text)
-            label = f"Make it {value}" if key == "size" else f"Set {key}: {text}"
-            yield {"label": label, "change": {"set": {key: value}}}
+            yield _setting(key, text)
 
 
 def _corrections(remedy: str, where: str, data: Mapping[str, Any]) -> Iterator[Fix]:
@@ -83,6 +89,10 @@ def _corrections(remedy: str, where: str, data: Mapping[str, Any]) -> Iterator[F
     if example := _FOR_EXAMPLE.search(remedy):
         for text in re.findall(r"'([^']+)'", example[1]):
             yield {"label": f"Set {key}: {text}", "change": {"set": {key: text}}}
+    if (between := _BETWEEN.search(remedy)) and field_at(key) is not None:
+        yield from (_setting(key, text.strip("'")) for text in between.groups())
+    if _TAKE_AWAY.search(remedy) and value_at(data, key, missing) is not missing:
+        yield {"label": f"Take {key} away", "change": {"unset": [key]}}
     if instead := _INSTEAD.search(remedy):
         word = instead[1]
         value = value_at(data, key, missing)
@@ -94,8 +104,15 @@ def _corrections(remedy: str, where: str, data: Mapping[str, Any]) -> Iterator[F
             yield {"label": f"Call it {word}", "change": {"unset": [key], "set": {right: value}}}
 
 
+def _setting(key: str, text: str) -> Fix:
+    return {
+        "label": _SAYING.get(key, f"Set {key}: {{}}").format(text),
+        "change": {"set": {key: _read(text)}},
+    }
+
+
 def _measures(remedy: str, config: Config, size_mm: float | None) -> Iterator[Fix]:
-    """What a maker would try: a larger piece, thinner wire, softer wire."""
+    """What a maker would try: a larger piece, thinner wire, softer wire, a jig less."""
     now_mm = config.size or size_mm
     if _LARGER.search(remedy) and now_mm:
         for mm in [size for size in SIZES_MM if size > now_mm * 1.02][:_OFFERED]:
@@ -108,6 +125,9 @@ def _measures(remedy: str, config: Config, size_mm: float | None) -> Iterator[Fi
     if _SOFTER.search(remedy) and config.wire.temper in _TEMPERS:
         for temper in _TEMPERS[_TEMPERS.index(config.wire.temper) + 1 :][:1]:
             yield {"label": f"Take {temper} wire", "change": {"set": {"wire.temper": temper}}}
+    for name, key in _LEAVE_OUT.findall(remedy):
+        kept = [each for each in getattr(config, key) if each != name]
+        yield {"label": f"Leave {name} out", "change": {"set": {key: kept}}}
 
 
 def _config(data: Mapping[str, Any], change: Mapping[str, Any] | None = None) -> Config | None:

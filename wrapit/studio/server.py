@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import logging
 import signal
 import socket
 import sys
@@ -31,6 +33,7 @@ def serve(config: Path, output: Path | None, port: int, browser: bool) -> None:
     with _listening(port) as listener:
         door = Door(listener.getsockname()[1])
         session = Session(config, output)
+        logging.getLogger("uvicorn.error").addFilter(_is_worth_saying)
         settings = uvicorn.Config(
             application(session, door),
             log_config=None,
@@ -80,6 +83,12 @@ class _Server(uvicorn.Server):
     def _leave(self, signum: int, frame: FrameType | None) -> None:  # noqa: ARG002  Python's signature
         self.force_exit = self.should_exit
         self.should_exit = True
+
+
+def _is_worth_saying(record: logging.LogRecord) -> bool:
+    """Not that a signal cut off who hadn't sent or fetched all by then: to end is what was asked."""
+    cut_off = bool(record.exc_info) and isinstance(record.exc_info[1], asyncio.CancelledError)
+    return not cut_off and "timeout graceful shutdown" not in str(record.msg)
 
 
 def _listening(port: int) -> socket.socket:

@@ -16,7 +16,8 @@ from wrapit.studio.fixes import fixes
 from wrapit.studio.text.config_file import Judged, content_of, judged, text_of, write
 from wrapit.studio.text.editing import Change, change_from, edited
 from wrapit.studio.text.history import History
-from wrapit.studio.text.values import BOM
+from wrapit.studio.text.values import BOM, finite
+from wrapit.units import printable
 
 WATCH_S: Final = 0.25
 """Between two looks at the files: at once for a person, nothing for a disk, even over a network."""
@@ -50,6 +51,7 @@ class Session:
         self._ended = False
         self._building = Building(self.path, output and output.absolute(), self._bump)
         self._watching: asyncio.Task[None] | None = None
+        self._files = self._signatures()
 
     # Begin and end
 
@@ -79,16 +81,20 @@ class Session:
         return self._seen
 
     def _state(self) -> Message:
-        now, data, building = self._now, self._now.data, self._building
-        buttons = functools.cache(functools.partial(fixes, data=data, size_mm=building.size_mm))
+        now, building = self._now, self._building
+        data = finite(now.data)
+        buttons = functools.cache(
+            functools.partial(fixes, data=data, size_mm=building.size_mm, wires=len(building.shown["wires"]))
+        )
         problem = told(now.problem) if now.problem is not None else building.problem
         return {
             "revision": self._revision,
-            "name": now.config.name if now.config is not None else self.path.stem,
-            "config": self.path.name,
+            "name": now.config.name if now.config is not None else printable(self.path.stem),
+            "config": printable(self.path.name),
             "text": now.text,
             "text_sha256": now.sha256,
             "problem": problem and problem | {"fixes": buttons(problem["remedy"], problem["where"])},
+            "again": problem is not None and now.problem is None,
             "building": building.progress,
             "fresh": building.fresh,
             "can_undo": self._history.before() is not None,
@@ -170,6 +176,12 @@ class Session:
         """Makes the change again that was taken back last."""
         return self._travel(self._history.after, self._history.go_on, "redo")
 
+    def again(self) -> int:
+        """Builds anew what couldn't be built: the disk has room now, or a folder was cleared."""
+        if not self._notice(content_of(self.path)):
+            self._rebuild()
+        return self._revision
+
     def find_alternatives(self, count: int) -> int:
         """Begins to look for so many of the best ways to divide the drawing."""
         if not 1 <= count <= MOST_ALTERNATIVES:
@@ -237,22 +249,23 @@ class Session:
     def _take(self, now: Judged) -> None:
         if now.content != self._now.content:
             self._now = now
+            self._files = self._signatures()
             self._rebuild()
 
     async def _watch(self) -> None:
-        seen = self._signatures()
         while True:
             await asyncio.sleep(WATCH_S)
             signatures = self._signatures()
-            if signatures == seen:
+            if signatures == self._files:
                 continue
             content = content_of(self.path)
             await asyncio.sleep(SETTLE_S)
             if content != content_of(self.path) or signatures != self._signatures():
                 continue  # it is being written; the next look sees all of it
-            config_only = signatures[1:] == seen[1:]
-            seen = signatures
-            if not self._notice(content) and not config_only:
+            drawing_too = signatures[1:] != self._files[1:]
+            self._files = signatures
+            # A config that is saved as it was asks for another try of what couldn't be built.
+            if not self._notice(content) and (drawing_too or self._building.problem is not None):
                 self._rebuild()
 
     def _signatures(self) -> tuple[object, ...]:

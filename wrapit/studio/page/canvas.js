@@ -135,7 +135,7 @@ export function canvas(state, selected, layers, picture, pick) {
       svg("text", { class: "number white", x, y: -y - 1.55 * unit, "font-size": 1.2 * unit, "aria-hidden": "true" }, String(index + 1)),
     );
   });
-  return svg("svg", { viewBox: box.join(" "), role: "group", "aria-label": `${state.name}: lines, junctions and findings` }, ...children);
+  return svg("svg", { viewBox: box.join(" "), role: "group", "aria-describedby": "keys", "aria-label": `${state.name}: lines, junctions and findings` }, ...children);
 }
 
 /** Lights up segments while the pointer is on what speaks of them. */

@@ -28,10 +28,10 @@ export function prose(text) {
   return text.split("`").map((part, index) => (index % 2 ? html("code", {}, part) : part));
 }
 
-/** Lets what is clicked be pressed with Enter and the space bar too. */
+/** Lets what is clicked be pressed with Enter and the space bar too; keyboard.js says how the keyboard gets there. */
 export function pressable(label, action) {
   return {
-    tabindex: 0,
+    tabindex: -1,
     role: "button",
     "aria-label": label,
     onclick: action,

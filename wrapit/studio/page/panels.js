@@ -10,8 +10,10 @@ const fixes = (finding, act) =>
   (finding.fixes ?? []).length ? html("p", { class: "buttons" }, ...finding.fixes.map((fix) => html("button", { type: "button", onclick: () => act(fix.change) }, fix.label))) : null;
 
 /** Why nothing newer can be shown, with what would help. */
-export function problem(state, act) {
-  return state.problem ? [...error(state.problem), fixes(state.problem, act)] : [];
+export function problem(state, act, again) {
+  if (!state.problem) return [];
+  const retry = state.again ? html("p", { class: "buttons" }, html("button", { type: "button", onclick: again }, "Try again")) : null;
+  return [...error(state.problem), fixes(state.problem, act), retry];
 }
 
 function place(each, index, current, locate) {
@@ -109,6 +111,7 @@ export function ways(place, state, ask, act) {
     const found = state.alternatives;
     const busy = Boolean(found?.building);
     start.push(html("button", { type: "button", id: "show-ways", disabled: busy || !state.shown.drawing, onclick: () => ask(6) }, busy ? "Looking …" : "Show six ways"));
+    if (found?.error) start.push(html("div", { class: "wrong", role: "alert" }, ...error(found.error).filter(Boolean)));
     if (!Array.isArray(found)) return start;
     const cards = found.map((each) =>
       html(
@@ -130,29 +133,46 @@ export function text(place, state, save) {
     place.dataset.made = "yes";
     const area = html("textarea", { id: "yaml", spellcheck: "false", "aria-label": "The config as YAML" });
     const told = html("p", { class: "wrong", role: "alert", id: "yaml-wrong" });
-    const submit = async () => {
-      const { error: failed } = await save(area.value, area.dataset.base);
+    const submit = async (base) => {
+      const sent = area.value;
+      const { error: failed } = await save(sent, base);
       told.textContent = failed ? [failed.where, failed.problem, failed.remedy].filter(Boolean).join("; ") : "";
-      if (!failed) area.dataset.from = area.value;
+      if (failed) return;
+      area.dataset.from = sent;
+      other.hidden = true;
     };
     const reload = () => {
-      area.dataset.from = area.value = area.dataset.newest;
+      area.value = area.dataset.newest;
+      area.dataset.from = area.value; // in which every line ends as the page ends it
       area.dataset.base = area.dataset.newestBase;
       told.textContent = "";
+      other.hidden = true;
     };
+    const button = (id, label, onclick) => html("button", { type: "button", id, onclick }, label);
+    const other = html(
+      "div",
+      { id: "yaml-other", role: "alert", hidden: true },
+      html("p", {}, "The file has been changed while you were writing here. Your text is kept until you choose:"),
+      html("p", { class: "buttons" }, button("overwrite-text", "Save mine in its place", () => submit(area.dataset.newestBase)), button("reload-text", "Take what the file says now", reload)),
+    );
     place.append(
       html("p", { class: "soft" }, "This is the file: what is changed on this page is written here, and what is changed here, or in an editor, shows on the page."),
       area,
       told,
-      html("p", { class: "buttons" }, html("button", { type: "button", id: "save-text", onclick: submit }, "Save"), html("button", { type: "button", onclick: reload }, "Take what the file says now")),
+      other,
+      html("p", { class: "buttons" }, button("save-text", "Save", () => submit(area.dataset.base)), button("drop-text", "Drop what I wrote", reload)),
     );
   }
   const area = place.querySelector("textarea");
   const untouched = area.dataset.from === undefined || area.value === area.dataset.from;
   Object.assign(area.dataset, { newest: state.text, newestBase: state.text_sha256 });
-  if (!untouched) return;
-  if (area.value !== state.text) area.value = state.text;
-  area.dataset.from = state.text;
+  if (!untouched) {
+    document.getElementById("yaml-other").hidden = area.dataset.base === state.text_sha256;
+    return;
+  }
+  const shown = state.text.replace(/\r\n?/g, "\n"); // as an area has it, whatever it is given
+  if (area.value !== shown) area.value = shown;
+  area.dataset.from = shown;
   area.dataset.base = state.text_sha256;
 }
 

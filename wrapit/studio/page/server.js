@@ -19,6 +19,7 @@ async function post(path, body) {
 export const change = (wanted) => post("/change", wanted);
 export const saveText = (text, base) => post("/text", { text, base });
 export const undo = () => post("/undo", {});
+export const again = () => post("/again", {});
 export const redo = () => post("/redo", {});
 export const showWays = (count) => post("/alternatives", { count });
 
@@ -32,12 +33,21 @@ export async function state() {
   }
 }
 
-/** Calls `changed` now and whenever something is new; `lost` while the studio doesn't answer. */
+/**
+ * Calls `changed` now and whenever something is new; `lost` while the studio doesn't answer. A tab that nobody
+ * sees lets go of its line: browsers open six to one server, for all tabs together, and a seventh would wait.
+ */
 export function follow(changed, lost) {
-  const events = new EventSource("/events");
-  events.onmessage = changed;
-  events.onopen = changed;
-  events.onerror = lost;
+  let events = null;
+  const listen = () => {
+    if (document.hidden === (events === null)) return;
+    events?.close();
+    events = document.hidden ? null : new EventSource("/events");
+    if (events) Object.assign(events, { onmessage: changed, onopen: changed, onerror: lost });
+  };
+  document.addEventListener("visibilitychange", listen);
+  window.addEventListener("pageshow", listen);
+  listen();
 }
 
 /** Where a file of the last build is; its hash makes the browser fetch it anew when it changed. */

@@ -4,6 +4,7 @@ import { canvas } from "./canvas.js";
 import { chosen, wishes } from "./choosing.js";
 import { controls } from "./controls.js";
 import { html } from "./elements.js";
+import { arrows, named, renew } from "./keyboard.js";
 import * as panels from "./panels.js";
 import * as server from "./server.js";
 
@@ -77,8 +78,7 @@ function locate(index) {
 /** What has the keyboard keeps it when the picture is drawn anew. */
 function focused() {
   const element = document.activeElement;
-  const key = ["segment", "junction", "finding"].find((each) => element?.dataset?.[each] !== undefined);
-  return key && at("canvas").contains(element) ? `#canvas [data-${key}="${element.dataset[key]}"]` : null;
+  return at("canvas").contains(element) ? named(element) : null;
 }
 
 function showPicture() {
@@ -90,7 +90,8 @@ function showPicture() {
   const again = focused();
   at("canvas").replaceChildren(canvas(state, view.selected, view.layers, picture, pick));
   at("canvas").classList.toggle("stale", !state.fresh);
-  if (again) document.querySelector(again)?.focus();
+  renew(at("canvas"));
+  if (again) at("canvas").querySelector(again)?.focus();
   at("layer-picture").closest("label").hidden = !drawing?.pixel_frame;
   at("chosen").replaceChildren(...chosen(state, view.selected, act).filter(Boolean));
 }
@@ -115,7 +116,7 @@ function show() {
   at("undo").disabled = !state.can_undo;
   at("redo").disabled = !state.can_redo;
   at("problem").hidden = !state.problem;
-  at("problem").replaceChildren(...panels.problem(state, act).filter(Boolean));
+  at("problem").replaceChildren(...panels.problem(state, act, tryAgain).filter(Boolean));
   controls(at("settings"), state, act);
   loadPicture();
   showPicture();
@@ -140,10 +141,14 @@ async function ask(count) {
   complain((await server.showWays(count)).error);
 }
 
+async function tryAgain() {
+  complain((await server.again()).error);
+}
+
 function complain(error) {
   if (!error) return;
   at("problem").hidden = false;
-  at("problem").replaceChildren(...panels.problem({ problem: error }, act).filter(Boolean));
+  at("problem").replaceChildren(...panels.problem({ problem: error }, act, tryAgain).filter(Boolean));
 }
 
 let shownPicture = null;
@@ -161,10 +166,10 @@ function loadPicture() {
 }
 
 let waiting = false;
-let again = false;
+let stale = false;
 async function refresh() {
   if (waiting) {
-    again = true;
+    stale = true;
     return;
   }
   waiting = true;
@@ -174,8 +179,8 @@ async function refresh() {
     state = newest;
     show();
   }
-  if (again) {
-    again = false;
+  if (stale) {
+    stale = false;
     refresh();
   }
 }
@@ -185,6 +190,7 @@ function lost() {
 }
 
 makeTabs();
+arrows(at("canvas"));
 at("undo").addEventListener("click", async () => complain((await server.undo()).error));
 at("redo").addEventListener("click", async () => complain((await server.redo()).error));
 document.addEventListener("keydown", (event) => {

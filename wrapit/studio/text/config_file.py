@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import tempfile
@@ -18,6 +19,8 @@ from wrapit.units import printable
 
 # What a file holds that isn't there; an empty config is no config either.
 _GONE: Final = b""
+# Somebody may write it: its owner, the group or all.
+_WRITABLE: Final = 0o222
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,9 @@ def write(path: Path, text: str) -> None:
     target = Path(os.path.realpath(path))
     try:
         mode = target.stat().st_mode & 0o7777
+        # A file that is put in its place would pass over that.
+        if not mode & _WRITABLE or not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, "it is read-only")
         write_whole(target, text)
         target.chmod(mode)
     except OSError as error:

@@ -90,9 +90,11 @@ def _constraints(data: Mapping[str, Any], change: Change) -> list[Any] | None:
     if not change.constrain and not change.release:
         return None
     old = value_at(data, CONSTRAINTS) or []
+    if not isinstance(old, list):
+        raise _refusal("this is no list of constraints", CONSTRAINTS)
     gone = [index for index in change.release if not 0 <= index < len(old)]
-    if not isinstance(old, list) or gone:
-        raise _refusal(f"there is no constraint {gone[0] if gone else ''}".rstrip(), CONSTRAINTS)
+    if gone:
+        raise _refusal(f"there is no constraint {gone[0]}", CONSTRAINTS)
     kept = [item for index, item in enumerate(old) if index not in change.release]
     return kept + [item for item in map(plain, change.constrain) if item not in kept]
 

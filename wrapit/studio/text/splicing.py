@@ -20,6 +20,8 @@ from wrapit.studio.text.values import plain
 
 _PLAIN: Final = re.compile(r"[A-Za-z0-9](?:[\w ./+-]*[\w./+-])?")
 """Texts that mean themselves wherever they stand, unless they read as a number or truth value."""
+_ALONE: Final = re.compile(r" *, *(#.*)?\r?\n")
+"""What may stand behind an item between brackets that has its lines for itself: they go with it."""
 _INDENT: Final = 2
 """Blanks of a new block; as the shipped configs have it."""
 
@@ -182,6 +184,9 @@ def _with_lines(text: str, at: int, lines: Sequence[str]) -> str:
 def _without_item(text: str, spans: Sequence[tuple[int, int]], index: int) -> str:
     """The text without one of the items between brackets, and without a comma."""
     start, end = spans[index]
+    first, last = _line_start(text, start), _after_line(text, end)
+    if not text[first:start].strip() and _ALONE.fullmatch(text[end:last]):
+        return text[:first] + text[last:]
     if index > 0:
         start = spans[index - 1][1]
     elif len(spans) > 1:

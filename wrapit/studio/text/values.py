@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -37,6 +38,19 @@ def plain(value: Any) -> Any:
         if isinstance(value, kind):
             return kind(value)
     return None if value is None else str(value)
+
+
+def finite(value: Any) -> Any:
+    """Plain values as JSON can say them: what is no finite number becomes its word.
+
+    >>> finite({"size": float("nan"), "jigs": [1.5, float("-inf")]})
+    {'size': 'nan', 'jigs': [1.5, '-inf']}
+    """
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def value_at(data: Mapping[str, Any], key: str, missing: Any = None) -> Any:
