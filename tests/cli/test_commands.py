@@ -89,7 +89,11 @@ def test_a_choice_that_there_is_not(folder: Path) -> None:
     refused = wrapit("build", "my leaf.yaml", "--choose", "500", "--until", "decomposition", cwd=folder)
     assert refused.returncode == 2
     assert "choose between 1 and " in refused.stderr
-    assert wrapit("build", "my leaf.yaml", "--choose", "0", cwd=folder).returncode == 2
+    for never in ("0", "-1", "1001"):
+        refused = wrapit("build", "my leaf.yaml", "--choose", never, cwd=folder)
+        assert refused.returncode == 2
+        assert "--choose" in refused.stderr
+        assert "--set" not in refused.stderr
 
 
 def test_the_program_is_named_as_it_was_called(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

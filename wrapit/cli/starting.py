@@ -48,10 +48,11 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     from wrapit.pipeline.proposing import propose_makeable
     from wrapit.pipeline.textfile import write_whole
 
+    target = output if output is not None else drawing.with_suffix(".yaml") if drawing.name else drawing
+    if drawing.is_file():
+        _refuse_taken(target)  # before anybody waits for a proposal
     proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
-    target = output if output is not None else drawing.with_suffix(".yaml")
-    if os.path.lexists(target):
-        raise ConfigError("exists already", str(target), "choose another file with -o")
+    _refuse_taken(target)
     try:
         write_whole(target, proposal.text())
     except OSError as error:
@@ -64,6 +65,13 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
         remedy = f"see {pasted('check', argument(target))}"
         say(f"warning: no usual size was found at which a jig holds it; {remedy}")
     return target
+
+
+def _refuse_taken(target: Path) -> None:
+    from wrapit.errors import ConfigError
+
+    if os.path.lexists(target):
+        raise ConfigError("exists already", str(target), "choose another file with -o")
 
 
 @app.command()
