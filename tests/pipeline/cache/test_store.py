@@ -95,6 +95,19 @@ def test_where_no_folder_can_be_nothing_is_kept(tmp_path: Path, blocked: str) ->
     store.trim()
 
 
+def test_what_another_build_trims_meanwhile_is_missing(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    store.put("a", ENTRY)
+    usual = Store.has
+
+    def trimmed_behind(self: Store, key: str) -> bool:
+        found = usual(self, key)
+        place(self, key).unlink(missing_ok=True)
+        return found
+
+    monkeypatch.setattr(Store, "has", trimmed_behind)
+    assert (store.get("a"), store.trouble) == (None, "")
+
+
 def test_where_nobody_may_look_nothing_is_found(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(path: Path) -> bool:
         raise PermissionError(13, "Permission denied", str(path))

@@ -59,6 +59,8 @@ class Store:
         try:
             _refuse_others(path.parent)
             data = path.read_bytes()
+        except FileNotFoundError:
+            return None  # another build has just trimmed it away
         except OSError as error:
             self._note(error)
             return None
