@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -52,6 +53,7 @@ def test_help_of_each_command(tmp_path: Path) -> None:
         assert short.returncode == long.returncode == 0, command
         assert f"wrapit {command}" in short.stdout
         assert short.stdout == long.stdout
+        assert not re.search(r"\.\.\.[\]}]+\.\.\.", short.stdout), "said twice that there may be several"
 
 
 def test_the_effective_config_of_several(folder: Path) -> None:

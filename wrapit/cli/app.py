@@ -31,7 +31,7 @@ app = typer.Typer(
 Configs = Annotated[
     list[Path],
     typer.Argument(
-        metavar="CONFIG...",
+        metavar="CONFIG",
         autocompletion=completing.configs,
         help="The piece's YAML config; several are merged left to right, :pendant and the like come with it.",
     ),

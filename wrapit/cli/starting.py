@@ -79,7 +79,7 @@ def coupon(
     configs: Annotated[
         list[Path] | None,
         typer.Argument(
-            metavar="[CONFIG...]",
+            metavar="CONFIG",
             autocompletion=completing.configs,
             help="Take wire, kerf and clearance from these configs.",
         ),
