@@ -21,11 +21,8 @@ from typing import Any, Final
 
 from wrapit.errors import WrapItError
 from wrapit.pipeline.output.guards import let_through
-<<<<<<< HEAD
 from wrapit.pipeline.worker import nothing_on_stdout
-=======
 from wrapit.units import printable
->>>>>>> helper-rev1
 
 ORDERS: Final = "wrapit.studio.orders"
 """Where the orders are; imported there and not here, for it loads what takes a second."""
