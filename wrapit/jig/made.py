@@ -71,6 +71,14 @@ class Made:
     page: GuidePage | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Planned:
+    """A jig before its solids: `views` show it already, `build` makes it; picklable."""
+
+    views: tuple[View, ...]
+    build: Callable[[], Made]
+
+
 @dataclass(frozen=True)
 class JigMaker:
     """A kind of jig.
@@ -78,7 +86,7 @@ class JigMaker:
     `make` takes the wires of the piece as they lie in the jig, and raises JigError where no such jig can be
     made, UnheldError where it would hold too little. `held` is the share of the wires that
     it would hold, planned only. `solid` says that its parts are kernel solids: then `plan` does what needs no
-    kernel, raises as `make` does, and returns what makes the solids, to be sent to the kernel's process, and
+    kernel, raises as `make` does, and returns what is built in the kernel's process, and
     `judge` looks at them once more, by other means, and raises KernelError where jig and wires have anything
     in common.
     """
@@ -88,7 +96,7 @@ class JigMaker:
     make: Callable[[Wires, Config], Made]
     held: Callable[[Wires, Config], float]
     judge: Callable[[Made, Wires, Config], Made] | None = None
-    plan: Callable[[Wires, Config], Callable[[], Made]] | None = None
+    plan: Callable[[Wires, Config], Planned] | None = None
 
 
 def reported(value: float) -> float:

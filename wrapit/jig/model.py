@@ -108,6 +108,13 @@ class JigPlan:
     laid: tuple[Course, ...] = ()
     groove: Groove | None = None
 
+    @property
+    def ground(self) -> Region:
+        """The plate with what goes through it: holes, screw holes and pockets."""
+        openings = [*(hole.outline for hole in self.holes), *self.screw_holes]
+        openings += [seat.pocket for seat in self.seats]
+        return Region(self.plate.outline.outer, tuple(openings))
+
 
 @dataclass(frozen=True)
 class TurnSupport:

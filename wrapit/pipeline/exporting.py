@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,29 +12,23 @@ from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
 
 if TYPE_CHECKING:
-    from wrapit.jig.made import Made
+    from wrapit.jig.made import Made, View, Wires
 
 ALTERNATIVES = "alternatives.svg"
 """The picture of the best decompositions side by side."""
 
 
-def write_views(work: Work, folder: Path, *, mirror: bool) -> Outcome:
-    """`preview.png`, `view.png`: a jig with its wires from above and at an angle.
+def write_views(folder: Path, views: Sequence[View], wires: Wires, suffix: str = "") -> Outcome:
+    """`preview{suffix}.png`, `view{suffix}.png`: a jig with its wires from above and at an angle.
 
-    Where one jig isn't all, each has its own beside the piece's preview. The piece's own wires are as they
-    are there; in the jig they may be overbent.
+    Where one jig isn't all, each has its own beside the piece's preview. `wires` are as they are in the
+    piece; in the jig they may be overbent.
     """
     from wrapit.exports.preview_png import write_preview
     from wrapit.exports.view_png import write_view
-    from wrapit.jig.made import MIRRORED
-    from wrapit.wires.mirror import mirrored
 
-    made, wires, suffix = work.made[work.kinds[0]], work.wires, ""
-    if mirror:
-        assert work.mirrored is not None
-        made, wires, suffix = work.mirrored, mirrored(work.wires), MIRRORED
     files = []
-    for view in made.views:
+    for view in views:
         files.append(f"{view.stem}{suffix}.png")
         laid = wires if view.plate is None else view.wires
         write_preview(folder / files[-1], laid, view.walls, view.plate, view.taut)

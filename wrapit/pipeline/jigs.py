@@ -16,7 +16,7 @@ from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import OnCall
 
 if TYPE_CHECKING:
-    from wrapit.jig.made import JigMaker, Made, Wires
+    from wrapit.jig.made import JigMaker, Made, Planned, View, Wires
 
 T = TypeVar("T")
 
@@ -78,6 +78,7 @@ def _made(
 
     made: dict[JigKind, Outcome | UnheldError] = {}
     started: list[JigKind] = []
+    first: Planned | None = None
     # Solids first: their process works while flat jigs are made here.
     for maker in sorted((JIGS[kind] for kind in kinds), key=lambda maker: not maker.solid):
         if maker.plan is None:
@@ -93,25 +94,24 @@ def _made(
         if isinstance(planned, UnheldError):
             made[maker.kind] = planned
             continue
-        making = _judged_too(planned, maker, work.laid, work.config) if work.exact else planned
-        kernel.worker().start(make_solids, making, work.config, folder)
+        kernel.worker().start(make_solids, _building(planned, maker, work.laid, work), work.config, folder)
         started.append(maker.kind)
+        if maker.kind == kinds_of(work)[0]:
+            first = planned
+    if folder is not None and first is not None:
+        show_jig(work, folder, views=first.views)  # painted while the solids are made
     for kind in started:
         made[kind] = _solid(_awaited(work, kernel, "jig"))
     return made
 
 
-def _judged_too(
-    planned: Callable[[], Made], maker: JigMaker, wires: Wires, config: Config
-) -> Callable[[], Made]:
-    """Makes the solids and has the kind's judge look at them."""
+def _building(planned: Planned, maker: JigMaker, wires: Wires, work: Work) -> Callable[[], Made]:
+    """Makes the solids, and has the kind's judge look at them if the work is to be exact."""
     from wrapit.pipeline.solids import judged_solids
 
-    return (
-        planned
-        if maker.judge is None
-        else functools.partial(judged_solids, planned, maker.judge, wires, config)
-    )
+    if not work.exact or maker.judge is None:
+        return planned.build
+    return functools.partial(judged_solids, planned.build, maker.judge, wires, work.config)
 
 
 def _tried(make: Callable[[Wires, Config], T], work: Work) -> T | UnheldError:
@@ -156,6 +156,31 @@ def _left_out(kind: JigKind, unheld: UnheldError) -> Finding:
         f"{unheld.problem}, so it is not made",
         f"make the piece larger, take thinner wire, or leave {kind} out of `jigs`",
     )
+
+
+def show_jig(work: Work, folder: Path, *, mirror: bool = False, views: Sequence[View] | None = None) -> None:
+    """Pictures of the first jig, or of the mirror image of the one that has one.
+
+    They are painted once: `views` are those of a jig whose solids aren't made yet.
+    """
+    step = "mirrored views" if mirror else "views"
+    if step in work.outcomes:
+        return
+
+    def painted() -> Outcome:
+        from wrapit.jig.made import MIRRORED
+        from wrapit.pipeline.exporting import write_views
+        from wrapit.wires.mirror import mirrored
+
+        if mirror:
+            assert work.mirrored is not None
+            return write_views(folder, work.mirrored.views, mirrored(work.wires), MIRRORED)
+        shown = views if views is not None else work.made[work.kinds[0]].views
+        return write_views(folder, shown, work.wires)
+
+    kinds = kinds_of(work)[:1] if views is not None else kinds_of(work) if mirror else work.kinds[:1]
+    key = work.key("views", mirror, upon=map(jig_step, kinds))
+    work.outcomes[step] = work.remember(key, painted, folder)
 
 
 @contextlib.contextmanager
@@ -209,9 +234,9 @@ def _mirrored(work: Work, kernel: OnCall, folder: Path | None) -> Outcome:
     if maker is None or maker.plan is None:
         return Outcome()
     config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
-    planned = maker.plan(mirrored(work.laid), config)
-    making = _judged_too(planned, maker, mirrored(work.laid), config) if work.exact else planned
-    kernel.worker().start(make_solids, making, config, folder, MIRRORED)
+    wires = mirrored(work.laid)
+    planned = maker.plan(wires, config)
+    kernel.worker().start(make_solids, _building(planned, maker, wires, work), config, folder, MIRRORED)
     outcome = _solid(_awaited(work, kernel, "mirrored jig"))
     return Outcome(outcome.value, outcome.blocks, tuple(map(_of_mirrored, outcome.findings)), outcome.files)
 

@@ -12,8 +12,17 @@ from typing import Any
 from wrapit.config import lock_text
 from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.cache.store import Store
-from wrapit.pipeline.exporting import write_alternatives, write_guide, write_sketch, write_views
-from wrapit.pipeline.jigs import jig_key, jig_step, kinds_of, make_jigs, mirrored_key, wires_beside, wires_key
+from wrapit.pipeline.exporting import write_alternatives, write_guide, write_sketch
+from wrapit.pipeline.jigs import (
+    jig_key,
+    jig_step,
+    kinds_of,
+    make_jigs,
+    mirrored_key,
+    show_jig,
+    wires_beside,
+    wires_key,
+)
 from wrapit.pipeline.output.ownership import sha256
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
@@ -153,17 +162,10 @@ def _draw_wires(work: Work, folder: Path | None) -> None:
 def _export(work: Work, kernel: OnCall, folder: Path) -> None:
     with work.stage("exports"):
         with wires_beside(work, kernel, folder):
-            _show(work, folder)
+            show_jig(work, folder)
             if {"html", "pdf"} & set(work.config.outputs):
                 key = work.key("guide", upon=map(jig_step, kinds_of(work)))
                 work.take("guide", work.remember(key, lambda: write_guide(work, folder), folder))
         if work.has_mirrored:
             with wires_beside(work, kernel, folder, mirror=True):
-                _show(work, folder, mirror=True)
-
-
-def _show(work: Work, folder: Path, *, mirror: bool = False) -> None:
-    """Pictures of the first jig, or of the mirror image of the one that has one."""
-    kinds = kinds_of(work) if mirror else work.kinds[:1]
-    key = work.key("views", mirror, upon=map(jig_step, kinds))
-    work.remember(key, lambda: write_views(work, folder, mirror=mirror), folder)
+                show_jig(work, folder, mirror=True)

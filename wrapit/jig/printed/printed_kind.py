@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 from wrapit.config import Config
@@ -11,7 +11,7 @@ from wrapit.errors import Finding
 from wrapit.jig.bench.model import Bench, Handling
 from wrapit.jig.bench.touching import bench_of
 from wrapit.jig.channel import Channels
-from wrapit.jig.made import JigMaker, Made, View, Wires
+from wrapit.jig.made import JigMaker, Made, Planned, View, Wires
 from wrapit.jig.model import Jig, JigSet, straying
 from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
@@ -20,24 +20,31 @@ from wrapit.jig.printed.printing_page import print_page
 from wrapit.jig.support import held_share
 
 if TYPE_CHECKING:
-    from wrapit.jig.printed.planning import PlannedJigs
+    from wrapit.jig.printed.planning import PlannedJig, PlannedJigs
 
 
-def plan(wires: Wires, config: Config) -> Callable[[], Made]:
-    """Plans the printed jig of a piece, or several; what it returns makes the solids. See `JigMaker`."""
+def plan(wires: Wires, config: Config) -> Planned:
+    """Plans the printed jig of a piece, or several; see `JigMaker`."""
     from wrapit.jig.printed.stage import plan_held
 
     planned, findings = plan_held(wires, config.jig)
     loose = [finding for jig in planned.jigs for finding in loose_ends(jig.standing, config)]
-    return functools.partial(_made, planned, (*findings, *loose), wires, config)
+    views = _views(planned.jigs, wires)
+    return Planned(views, functools.partial(_made, planned, views, (*findings, *loose), wires, config))
 
 
 def make(wires: Wires, config: Config) -> Made:
     """The printed jig of a piece, or several; see `JigMaker`. Raises KernelError too."""
-    return plan(wires, config)()
+    return plan(wires, config).build()
 
 
-def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, config: Config) -> Made:
+def _made(
+    planned: PlannedJigs,
+    views: tuple[View, ...],
+    findings: tuple[Finding, ...],
+    wires: Wires,
+    config: Config,
+) -> Made:
     from wrapit.jig.printed.stage import build_planned
 
     jigs, more = build_planned(planned, config.jig)
@@ -47,7 +54,7 @@ def _made(planned: PlannedJigs, findings: tuple[Finding, ...], wires: Wires, con
         numbers=jig_numbers(jigs, wires),
         findings=(*findings, *more),
         parts=tuple(jig.part for jig in jigs.jigs),
-        views=_views(jigs, wires),
+        views=views,
         handling=held,
         page=print_page(jigs, held.benches, config),
     )
@@ -82,20 +89,19 @@ def _bench(jig: Jig, wires: Wires, config: Config) -> Bench:
     )
 
 
-def _views(jigs: JigSet, wires: Wires) -> tuple[View, ...]:
+def _views(jigs: Sequence[PlannedJig], wires: Wires) -> tuple[View, ...]:
     """One view where one jig holds all wires; else the piece, and each jig with its own."""
-    if len(jigs.jigs[0].wires) == len(wires):
-        return (_view("preview", wires, jigs.jigs[0]),)
-    mine = [tuple(wire for wire in wires if wire.name in jig.wires) for jig in jigs.jigs]
-    each = [_view(f"preview-{jig.name}", laid, jig) for jig, laid in zip(jigs.jigs, mine, strict=True)]
+    if len(jigs[0].plan.wires) == len(wires):
+        return (_view("preview", wires, jigs[0]),)
+    mine = [tuple(wire for wire in wires if wire.name in jig.plan.wires) for jig in jigs]
+    each = [_view(f"preview-{jig.plan.name}", laid, jig) for jig, laid in zip(jigs, mine, strict=True)]
     return (View("preview", wires), *each)
 
 
-def _view(stem: str, wires: Wires, jig: Jig) -> View:
+def _view(stem: str, wires: Wires, jig: PlannedJig) -> View:
     heights = tuple(wall.height_mm for wall in jig.plan.walls)
-    return View(
-        stem, wires, jig.walls, jig.plate, straying(jig.plan.laid), heights, jig.plan.plate.thickness_mm
-    )
+    plan = jig.plan
+    return View(stem, wires, jig.walls, plan.ground, straying(plan.laid), heights, plan.plate.thickness_mm)
 
 
 # The kind, as `jig.kinds` lists it.

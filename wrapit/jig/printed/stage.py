@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 
 from wrapit.config import JigConfig
 from wrapit.errors import Finding, JigError, KernelError
-from wrapit.geometry import Region
 from wrapit.jig.model import Jig, JigPlan, JigSet, Part
 from wrapit.jig.printed.planning import PlannedJig, PlannedJigs, plan_jigs
 from wrapit.jig.printed.solid import jig_solid
@@ -62,8 +61,6 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
     plan, made, findings = _solid(part, config)
     from wrapit.kernel.measures import box_mm, count_solids
 
-    openings = [*(hole.outline for hole in plan.holes), *plan.screw_holes]
-    openings += [seat.pocket for seat in plan.seats]
     low, high = box_mm(made.solid)
     width, depth, height = (high - low).tolist()
     jig = Jig(
@@ -71,7 +68,7 @@ def _built(part: PlannedJig, config: JigConfig) -> tuple[Jig, tuple[Finding, ...
         wires=plan.wires,
         part=Part(plan.name, made.solid, COLOUR, (low, high)),
         walls=part.walls,
-        plate=Region(plan.plate.outline.outer, tuple(openings)),
+        plate=plan.ground,
         plan=plan,
         valid=True,
         solids=count_solids(made.solid),
