@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import socket
 import time
 from pathlib import Path
@@ -15,7 +16,8 @@ from hypothesis import strategies as st
 from tests.config.test_loading import GOOD, load
 from wrapit.config import load_config
 from wrapit.config.texts.budgets import DEEPEST, MOST_NODES
-from wrapit.config.texts.reading import LARGEST_FILE, read_yaml
+from wrapit.config.texts.reading import DRAWINGS, LARGEST_FILE, read_yaml
+from wrapit.drawing.stage import BITMAPS
 from wrapit.errors import ConfigError
 
 FAST_S = 5.0
@@ -51,6 +53,19 @@ def test_what_is_no_ordinary_file_is_refused_at_once(tmp_path: Path) -> None:
     (tmp_path / "loop").symlink_to(tmp_path / "loop")
     for path in (tmp_path / "loop", tmp_path / ("x" * 300), Path("nul\0.yaml"), tmp_path / "bee.yaml" / "x"):
         assert re.search(r"can't be read \(.+\)|no such config", refusal(path).problem)
+
+
+def test_a_drawing_in_place_of_its_config_is_known(tmp_path: Path) -> None:
+    assert set(BITMAPS) < set(DRAWINGS)
+    for suffix in (*DRAWINGS, ".SVG"):
+        path = tmp_path / f"my bee{suffix}"
+        path.write_bytes(b'\n{ "format": "wrapit-drawing/1", "junctions": [' + b"[0, 0], " * 90_000)
+        error = refusal(path)
+        assert error.problem == "this is a drawing, no config"
+        assert error.remedy.endswith(f"init {shlex.quote(str(path))}")
+    assert refusal(tmp_path / "none.png").problem == "no such config"
+    (tmp_path / "bee.json").write_text('{"drawing": "my bee.png", "size": "40 mm"}')
+    assert load_config(tmp_path / "bee.json").size == 40
 
 
 def test_a_large_file_is_refused_and_the_largest_is_read(tmp_path: Path) -> None:

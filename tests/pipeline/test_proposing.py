@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.conftest import CONFIGS
-from wrapit.config import load_config
+from wrapit.config import Config, load_config
 from wrapit.config.texts.presets import preset_names
 from wrapit.drawing.proposal import SIZES_MM, propose
 from wrapit.errors import ConfigError
@@ -63,6 +63,25 @@ def test_a_preset_is_written_out(tmp_path: Path, preset: str) -> None:
     assert proposal.size_mm in SIZES_MM
     with pytest.raises(ConfigError, match="did you mean"):
         propose(CONFIGS / "leaf.png", tmp_path, f"{preset}x")
+
+
+@pytest.mark.parametrize("preset", ["", *preset_names()])
+def test_what_is_tried_is_what_is_written(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, preset: str
+) -> None:
+    tried: list[Config] = []
+
+    def holds_the_third(config: Config, _: Path) -> float:
+        tried.append(config)
+        return 1.0 if len(tried) == 3 else 0.0
+
+    monkeypatch.setattr(proposing, "held_share", holds_the_third)
+    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: False)
+    proposal, _ = propose_makeable(CONFIGS / "leaf.png", tmp_path, preset)
+    path = tmp_path / "leaf.yaml"
+    path.write_text(proposal.text(), encoding="utf-8")
+    assert tried[-1].model_copy(update={"name": "leaf"}) == load_config(path)
+    assert len({config.size for config in tried}) == len(tried) == 3
 
 
 def test_what_was_found_is_said(tmp_path: Path) -> None:

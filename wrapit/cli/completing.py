@@ -9,8 +9,7 @@ from typing import Final
 import typer
 
 _CONFIGS: Final = (".yaml", ".yml")
-_DRAWINGS: Final = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".svg", ".json")
-"""Ends of the files that are offered; others may be typed."""
+"""Ends of the files that are offered, beside those of drawings; others may be typed."""
 
 
 def configs(ctx: typer.Context, incomplete: str) -> list[str]:
@@ -31,12 +30,16 @@ def config_files(incomplete: str) -> list[str]:
 
 def drawings(incomplete: str) -> list[str]:
     """Files that may be drawings, and folders."""
-    return list(_files(incomplete, _DRAWINGS))
+    from wrapit.config.texts.reading import DRAWINGS
+
+    return list(_files(incomplete, DRAWINGS))
 
 
 def pieces(incomplete: str) -> list[str]:
     """Files of YAML or what may be drawings, and folders."""
-    return list(_files(incomplete, (*_CONFIGS, *_DRAWINGS)))
+    from wrapit.config.texts.reading import DRAWINGS
+
+    return list(_files(incomplete, (*_CONFIGS, *DRAWINGS)))
 
 
 def stages(incomplete: str) -> list[str]:

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from wrapit.config import Config
+from wrapit.config.texts.reading import read_yaml
 from wrapit.drawing.proposal import SIZES_MM, Proposal, propose
 from wrapit.errors import WrapItError
 from wrapit.pipeline.remedies import held_share
@@ -26,7 +27,7 @@ def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -
     held: Proposal | None = None
     for size_mm in (each for each in SIZES_MM if each >= first.size_mm):
         proposal = first.at(size_mm)
-        config = _config(proposal, path)
+        config = Config.model_validate(read_yaml(proposal.text(), str(path)))  # what will be built
         if held_share(config, path) >= config.jig.least_support:
             held = held if held is not None else proposal
             if not _bends_tightly(config, path):
@@ -34,11 +35,6 @@ def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -
         if time.monotonic() > until:
             break
     return (held, True) if held is not None else (first, False)
-
-
-def _config(proposal: Proposal, path: Path) -> Config:
-    wire = {"gauge": f"{proposal.gauge} AWG"}
-    return Config.model_validate({"drawing": path.name, "size": f"{proposal.size_mm} mm", "wire": wire})
 
 
 def _bends_tightly(config: Config, path: Path) -> bool:

@@ -7,12 +7,29 @@ import stat
 from pathlib import Path
 from typing import Any, Final
 
+from wrapit.calling import argument, pasted
 from wrapit.config.texts.budgets import check_budgets
 from wrapit.errors import ConfigError
 from wrapit.units import printable, shortened
 
 LARGEST_FILE: Final = 200_000
 """Bytes; a config has some hundred, and YAML takes seconds for a megabyte."""
+DRAWINGS: Final = (
+    ".png",
+    ".jpg",
+    ".jpeg",
+    ".bmp",
+    ".tif",
+    ".tiff",
+    ".webp",
+    ".gif",
+    ".svg",
+    ".svgz",
+    ".json",
+)
+"""Ends of files that are drawings; but JSON may be a config too, for it is YAML."""
+_DRAWN: Final = re.compile(rb'\s*\{\s*"format"\s*:\s*"wrapit-drawing/')
+"""How a drawing in JSON begins."""
 UNREADABLE: Final = (ArithmeticError, AssertionError, AttributeError, LookupError, RecursionError, TypeError)
 """What the YAML library also raises when a value is not what it seems."""
 _FORBIDDEN: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -68,12 +85,16 @@ def _text_of(path: Path, where: str) -> str:
         if not stat.S_ISREG(kind):  # reading a pipe would wait for ever
             what = "a folder" if stat.S_ISDIR(kind) else "no ordinary file but a pipe, device or socket"
             raise ConfigError(f"the config can't be read (it is {what})", where, remedy)
+        if path.suffix.lower() in DRAWINGS and path.suffix.lower() != ".json":
+            raise _drawing(path, where)
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except FileNotFoundError:
         raise ConfigError("no such config", where, "give the path of a .yaml file") from None
     except (OSError, ValueError) as error:
         raise ConfigError(f"the config can't be read ({reason(error)})", where, remedy) from None
+    if _DRAWN.match(content):
+        raise _drawing(path, where)
     if len(content) > LARGEST_FILE:
         problem = f"the config is larger than {LARGEST_FILE // 1000} kB"
         raise ConfigError(problem, where, f"{remedy}; the drawing is a file of its own")
@@ -83,6 +104,12 @@ def _text_of(path: Path, where: str) -> str:
         line = content.count(b"\n", 0, error.start) + 1
         problem = f"the config can't be read (byte {error.start + 1}, in line {line}, is not UTF-8)"
         raise ConfigError(problem, where, "save it as UTF-8 text") from None
+
+
+def _drawing(path: Path, where: str) -> ConfigError:
+    """The refusal of what newcomers give: a drawing, where its config belongs."""
+    remedy = f"write one for it with: {printable(pasted('init', argument(path)))}"
+    return ConfigError("this is a drawing, no config", where, remedy)
 
 
 def _yaml() -> Any:
