@@ -88,7 +88,7 @@ class _Server(uvicorn.Server):
 
 def _is_worth_saying(record: logging.LogRecord) -> bool:
     """Not that a signal cut off who hadn't sent or fetched all by then: to end is what was asked."""
-    cut_off = bool(record.exc_info) and isinstance(record.exc_info[1], asyncio.CancelledError)
+    cut_off = record.exc_info is not None and isinstance(record.exc_info[1], asyncio.CancelledError)
     return not cut_off and "timeout graceful shutdown" not in str(record.msg)
 
 
