@@ -232,7 +232,8 @@ def gauge_diameter_mm(value: object, example: str = "1.0 mm") -> float:
         return length_mm(value, example)
     number = int(match["number"])
     if "swg" not in words:
-        if not 0 <= number <= 40:
+        thicker = number == 0 and len(match["number"]) > 1  # 00 is a gauge of its own, and thicker than 0
+        if thicker or not 0 <= number <= 40:
             raise ValueError(f"{value!r}: AWG sizes run from 0 to 40; write for example '18 AWG'")
         return awg_diameter_mm(number)
     if "awg" in words:

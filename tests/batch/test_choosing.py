@@ -54,6 +54,11 @@ def test_what_stands_for_no_config_is_refused(tmp_path: Path, what: str) -> None
     assert refused.value.remedy
 
 
+def test_a_preset_is_no_piece(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"a preset is no piece of its own; merge it: .* build :pendant "):
+        choose([Path(":pendant"), ring(tmp_path, "a")])
+
+
 def test_a_config_named_twice_is_made_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     config = ring(tmp_path, "a")
     (tmp_path / "link.yaml").symlink_to(config)

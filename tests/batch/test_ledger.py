@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 
 import pytest
+from rich.cells import cell_len
 
 from tests.batch.catalogues import ring
 from wrapit.batch import ledger as ledgers
@@ -14,6 +16,7 @@ from wrapit.batch.choosing import choose
 from wrapit.batch.ledger import Ledger, held
 from wrapit.batch.model import Outcome, Piece, failed
 from wrapit.batch.pricing import Prices
+from wrapit.batch.telling import reason, summary_lines
 from wrapit.errors import ConfigError, DrawingError
 
 FOREIGN = {
@@ -123,6 +126,40 @@ def test_what_a_killed_writer_left_is_cleared_away(tmp_path: Path) -> None:
     with held(tmp_path):
         pass
     assert [path.name for path in tmp_path.iterdir()] == [".wrapit-somebody"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows takes no such names")
+def test_names_that_are_no_text_are_spelled_out(tmp_path: Path) -> None:
+    odd = [ring(tmp_path, stem) for stem in (os.fsdecode(b"bee\xff"), "moth\x1b[31m")]
+    pieces = choose(odd)
+    ledger = Ledger(tmp_path / "out", pieces, Prices())
+    (tmp_path / "out").mkdir()
+    for piece in pieces:
+        told = failed(DrawingError(f"{piece.config_path.name} is odd", str(piece.config_path), "rename it"))
+        entry = ledger.record(Outcome(piece, told, 1.0))
+        assert reason(entry).isprintable()
+    ledger.write()
+    for name in ("batch.json", "index.html"):
+        text = (tmp_path / "out" / name).read_text(encoding="utf-8")
+        assert r"bee\udcff" in text.replace("\\\\", "\\")
+        assert "\x1b" not in text
+
+
+def test_columns_stand_below_each_other_whatever_the_script() -> None:
+    entry = {
+        "status": "ok",
+        "wires": 1,
+        "cut_length_mm": 100.0,
+        "mass_g": 1.0,
+        "cost": None,
+        "difficulty": "easy",
+        "findings": {"error": 0, "warning": 0},
+    }
+    names = ("bee", "蜂", "e\u0301te\u0301", "a much longer name of a piece")
+    totals = {"currency": "", "metal": [], "pieces": 4, "ok": 4, "failed": 0}
+    document = {"pieces": [{**entry, "name": name} for name in names], "totals": totals}
+    *rows, _ = summary_lines(document, Path("out"))
+    assert len({cell_len(row[: row.index("0.10 m")]) for row in rows[1:]}) == 1
 
 
 def test_a_piece_that_failed_says_why(tmp_path: Path, pieces: tuple[Piece, ...]) -> None:

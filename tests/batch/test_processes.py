@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import subprocess
 import sys
 import threading
 import time
@@ -58,6 +60,18 @@ def test_killed_twice_it_fails_with_that_reason(
     assert ended.error["code"] == "killed"
     assert how in ended.error["problem"]
     assert ended.error["where"] == "a.yaml"
+
+
+def test_where_no_process_starts_that_piece_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def refused(*_: object, **__: object) -> None:
+        raise BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(subprocess, "Popen", refused)
+    ended = Processes().build(Path("a.yaml"), tmp_path, ())
+    assert ended.error is not None
+    assert ended.exit_code == 1
+    assert ended.error["where"] == "a.yaml"
+    assert "resource temporarily unavailable" in ended.error["problem"]
 
 
 def test_stopped_nothing_is_tried_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

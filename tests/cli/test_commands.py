@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -52,6 +53,7 @@ def test_help_of_each_command(tmp_path: Path) -> None:
         assert short.returncode == long.returncode == 0, command
         assert f"wrapit {command}" in short.stdout
         assert short.stdout == long.stdout
+        assert not re.search(r"\.\.\.[\]}]+\.\.\.", short.stdout), "said twice that there may be several"
 
 
 def test_the_effective_config_of_several(folder: Path) -> None:
@@ -89,7 +91,11 @@ def test_a_choice_that_there_is_not(folder: Path) -> None:
     refused = wrapit("build", "my leaf.yaml", "--choose", "500", "--until", "decomposition", cwd=folder)
     assert refused.returncode == 2
     assert "choose between 1 and " in refused.stderr
-    assert wrapit("build", "my leaf.yaml", "--choose", "0", cwd=folder).returncode == 2
+    for never in ("0", "-1", "1001"):
+        refused = wrapit("build", "my leaf.yaml", "--choose", never, cwd=folder)
+        assert refused.returncode == 2
+        assert "--choose" in refused.stderr
+        assert "--set" not in refused.stderr
 
 
 def test_the_program_is_named_as_it_was_called(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -68,6 +68,7 @@ def test_configs_presets_and_drawings(shell: Path) -> None:
     assert offered(shell, "wrapit", "build", ":pe") == [":pendant"]
     assert offered(shell, "wrapit", "build", ":", "pe") == ["pendant"]  # as bash parts it at the colon
     assert offered(shell, "wrapit", "init", "be") == ["bee.png"]
+    assert offered(shell, "wrapit", "batch", "") == ["art/", "bear.yml", "bee.yaml", "bin/", "my bee.yaml"]
 
 
 def test_stages_and_keys(shell: Path) -> None:

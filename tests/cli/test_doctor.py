@@ -60,6 +60,14 @@ def test_a_missing_package_and_a_broken_kernel(monkeypatch: pytest.MonkeyPatch) 
     assert next(reversed(list(as_lines(found)))).startswith("wrapit doesn't work")
 
 
+def test_the_kernel_is_loaded_as_a_build_loads_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("random", "importlib", "wrapit"):  # whatever lies where somebody works
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('not the real one')")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(health, "_LOAD_KERNEL", "import importlib, random, wrapit.pipeline.solids")
+    assert health._kernel().state == "ok"
+
+
 def test_what_is_only_an_extra_keeps_nobody_from_working() -> None:
     found = [
         Checked("version", "a", "ok", "1", needed=True),

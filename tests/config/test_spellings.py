@@ -52,7 +52,20 @@ def test_a_british_gauge(spelled: str, gauge: int) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["18.5 ga", "2/0 AWG", "-18 ga", "18 20 ga", "18/20 gauge", "ga", "#", "99 ga", "18 AWG SWG", "½ ga"],
+    [
+        "18.5 ga",
+        "2/0 AWG",
+        "-18 ga",
+        "18 20 ga",
+        "18/20 gauge",
+        "ga",
+        "#",
+        "99 ga",
+        "00 AWG",
+        "000ga",
+        "18 AWG SWG",
+        "½ ga",
+    ],
 )
 def test_what_is_no_gauge_is_refused_with_one_that_is(text: str) -> None:
     with pytest.raises(ValueError, match="; write ") as caught:

@@ -28,6 +28,7 @@ INSTALLERS = {
     "pipx install .",
     "python3 -m venv .venv",
     ".venv/bin/pip install .",
+    'pip install "wrapit[cluster]"',
     "py -m venv .venv",
     r".venv\Scripts\pip install .",
 }

@@ -78,6 +78,9 @@ RIGHT = {
         "call of rename",
     ): "to a free name; a folder that appeared there is an error on each",
     ("pipeline/output/moving.py", "call of rename"): "to its own name: a question to Windows",
+    ("pipeline/cache/place.py", "call of expanduser"): "`~` in a setting is the user's folder on each",
+    ("studio/server.py", "open without encoding"): "of webbrowser: no file",
+    ("studio/text/config_file.py", "call of chmod"): "the rights that the file had, as each system has them",
     ("cli/main.py", "open without newline"): "standard output and error end lines as the terminal does",
 }
 

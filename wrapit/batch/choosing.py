@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Final
 
 from wrapit.batch.model import INDEX, LEDGER, Piece
+from wrapit.calling import pasted
 from wrapit.config import load_config, named_after
+from wrapit.config.texts.presets import is_preset
 from wrapit.errors import ConfigError, WrapItError
 
 # What configs are called where a folder of them is given.
@@ -33,6 +35,12 @@ def choose(arguments: Sequence[Path], overrides: Sequence[str] = ()) -> tuple[Pi
 
 
 def _configs(argument: Path) -> Iterator[Path]:
+    if is_preset(argument):
+        raise ConfigError(
+            "a preset is no piece of its own",
+            str(argument),
+            f"merge it: {pasted('build', argument, 'CONFIG')}",
+        )
     if argument.is_dir():
         found = sorted(path for path in argument.iterdir() if _is_config(path))
         if not found:

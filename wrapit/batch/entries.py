@@ -11,6 +11,7 @@ from wrapit.batch.model import STATUSES, Outcome, Piece
 from wrapit.batch.pricing import Prices
 from wrapit.config import Config
 from wrapit.materials import METALS
+from wrapit.units import printable
 
 # Files that the catalogue shows or leads to: the first of each kind that there is.
 _SHOWN: Final = {
@@ -29,7 +30,7 @@ def pending(piece: Piece) -> dict[str, Any]:
     """A piece that nobody has built yet."""
     return {
         "name": piece.name,
-        "config": str(piece.config_path),
+        "config": printable(str(piece.config_path)),
         "status": "pending",
         "exit_code": None,
         "error": None,
@@ -51,7 +52,10 @@ def entry_of(outcome: Outcome, folder: Path, prices: Prices) -> dict[str, Any]:
             "where": str(folder / piece.name),
             "remedy": "build it again with --resume",
         }
-        told = dict(ended.error) if ended.error is not None else gone
+        error = ended.error if ended.error is not None else gone
+        # Names of files may hold what neither a page nor a terminal should be given: halves of characters,
+        # commands to the terminal.
+        told = {key: printable(text) for key, text in error.items()}
         return entry | {"status": "failed", "exit_code": ended.exit_code or 1, "error": told}
     metal = list(_metal(report, piece.config, prices))
     return entry | {

@@ -37,7 +37,10 @@ class Processes:
         """Builds a config into a folder; one that is killed is tried once more."""
         command = _command(config, folder, overrides)
         for _ in range(TRIES):
-            exit_code, said, complaint = self._run(command)
+            try:
+                exit_code, said, complaint = self._run(command)
+            except OSError as error:
+                return _unstarted(error, config)
             document = _document(said)
             if document is not None and document.get("error", {}).get("code") != "interrupted":
                 return _ended(exit_code, document)
@@ -109,6 +112,16 @@ def _ended(exit_code: int, document: dict[str, Any]) -> Ended:
     if error is None:
         return Ended(exit_code, None, document.get("timings_s", {}))
     return Ended(exit_code, {key: str(error[key]) for key in ("code", "problem", "where", "remedy")})
+
+
+def _unstarted(error: OSError, config: Path) -> Ended:
+    told = {
+        "code": "system",
+        "problem": f"no process could be started for the build ({(error.strerror or str(error)).lower()})",
+        "where": str(config),
+        "remedy": "end other programs, or take fewer --jobs, and go on with --resume",
+    }
+    return Ended(1, told)
 
 
 def _killed(exit_code: int, complaint: str, config: Path) -> Ended:

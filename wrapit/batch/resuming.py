@@ -17,7 +17,10 @@ def is_up_to_date(piece: Piece, folder: Path) -> bool:
     if report is None or piece.config is None or report.get("until") != STAGES[-1]:
         return False
     drawing = piece.config_path.parent / piece.config.drawing
-    if not drawing.is_file():
+    try:
+        if not drawing.is_file():
+            return False
+        head = reports.head(piece.config, sha256(drawing))
+        return all(report.get(key) == head[key] for key in reports.HEAD_KEYS) and is_whole(folder, report)
+    except OSError:  # the drawing or a file of the folder can't be read: its build will say so
         return False
-    head = reports.head(piece.config, sha256(drawing))
-    return all(report.get(key) == head[key] for key in reports.HEAD_KEYS) and is_whole(folder, report)

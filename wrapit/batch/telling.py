@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from rich.cells import cell_len
+
 from wrapit.batch.model import INDEX, Outcome
 from wrapit.errors import WrapItError
 
@@ -49,11 +51,11 @@ def summary_lines(document: dict[str, Any], folder: Path) -> Iterator[str]:
     head = ("piece", "wires", "cut", "metal", "cost", "difficulty", "warnings")
     rows = [_row(entry, totals["currency"]) for entry in pieces]
     shown = [column for column in range(len(head)) if any(row[column] for row in rows)] or [0]
-    widths = [max(len(row[column]) for row in (head, *rows)) for column in range(len(head))]
+    widths = [max(cell_len(row[column]) for row in (head, *rows)) for column in range(len(head))]
     for row, entry in zip((head, *rows), (None, *pieces), strict=True):
         cells = (_aligned(row[column], widths[column], column) for column in shown)
         failure = f"  failed: {reason(entry)}" if entry is not None and entry["status"] == "failed" else ""
-        yield f"{'  '.join(cells)}".rstrip() if not failure else f"{row[0].ljust(widths[0])}{failure}"
+        yield f"{'  '.join(cells)}".rstrip() if not failure else f"{_aligned(row[0], widths[0], 0)}{failure}"
     for row in totals["metal"]:
         cost = amount(row["cost"], totals["currency"])
         yield (
@@ -80,7 +82,9 @@ def _row(entry: dict[str, Any], currency: str) -> tuple[str, ...]:
 
 
 def _aligned(cell: str, width: int, column: int) -> str:
-    return cell.ljust(width) if column in (0, 5) else cell.rjust(width)
+    """The cell with spaces; some letters are two columns wide, accents none."""
+    spaces = " " * (width - cell_len(cell))
+    return f"{cell}{spaces}" if column in (0, 5) else f"{spaces}{cell}"
 
 
 def _count(number: int, noun: str) -> str:

@@ -13,6 +13,7 @@ import typer
 from wrapit import __version__
 from wrapit.calling import PROGRAM
 from wrapit.cli import completing
+from wrapit.units import printable
 
 if TYPE_CHECKING:
     from wrapit.pipeline.build import Build
@@ -30,7 +31,7 @@ app = typer.Typer(
 Configs = Annotated[
     list[Path],
     typer.Argument(
-        metavar="CONFIG...",
+        metavar="CONFIG",
         autocompletion=completing.configs,
         help="The piece's YAML config; several are merged left to right, :pendant and the like come with it.",
     ),
@@ -53,8 +54,8 @@ Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Say m
 
 
 def say(line: str) -> None:
-    """One line for the person, on stderr."""
-    print(line, file=sys.stderr)
+    """One line for the person, on stderr; what names of files hold for the terminal is spelled out."""
+    print(printable(line), file=sys.stderr)
 
 
 def _version(wanted: bool) -> None:

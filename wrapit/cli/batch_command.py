@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from wrapit.cli import completing
 from wrapit.cli.app import AsJson, Overrides, Quiet, Verbose, app, say
 
 if TYPE_CHECKING:
@@ -22,7 +23,12 @@ if TYPE_CHECKING:
 def batch(
     configs: Annotated[
         list[Path],
-        typer.Argument(metavar="CONFIG", help="Configs, and folders of them.", show_default=False),
+        typer.Argument(
+            metavar="CONFIG",
+            autocompletion=completing.config_files,
+            help="Configs, and folders of them.",
+            show_default=False,
+        ),
     ],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Holds <name>/ for each, and index.html.")

@@ -49,7 +49,9 @@ def build(
     ] = 0,
     choose: Annotated[
         int | None,
-        typer.Option(metavar="N", help="Take the N-th best of them: --set decomposition.choice=N."),
+        typer.Option(
+            min=1, max=1000, metavar="N", help="Take the N-th best of them: --set decomposition.choice=N."
+        ),
     ] = None,
     depfile: Annotated[
         Path | None,

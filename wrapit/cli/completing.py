@@ -24,6 +24,11 @@ def configs(ctx: typer.Context, incomplete: str) -> list[str]:
     return [*(each for each in presets if each.startswith(incomplete)), *_files(incomplete, _CONFIGS)]
 
 
+def config_files(incomplete: str) -> list[str]:
+    """Files of YAML, and folders."""
+    return list(_files(incomplete, _CONFIGS))
+
+
 def drawings(incomplete: str) -> list[str]:
     """Files that may be drawings, and folders."""
     return list(_files(incomplete, _DRAWINGS))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+import os
 import platform
 import re
 import shutil
@@ -145,9 +146,13 @@ def _kernel() -> Checked:
     remedy = f"install it anew: {sys.executable} -m pip install --force-reinstall cadquery-ocp build123d"
     try:
         run = subprocess.run(
-            [sys.executable, "-c", _LOAD_KERNEL],
+            # Modules are found where this process finds them, as in a build, not in the folder that somebody
+            # is in.
+            [sys.executable, "-P", "-c", _LOAD_KERNEL],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
             capture_output=True,
             text=True,
+            errors="replace",
             timeout=KERNEL_LIMIT_S,
             check=False,
         )

@@ -48,11 +48,12 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     from wrapit.pipeline.proposing import propose_makeable
     from wrapit.pipeline.textfile import write_whole
 
-    proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
-    target = output if output is not None else drawing.with_suffix(".yaml")
+    target = output if output is not None else drawing.with_suffix(".yaml") if drawing.name else drawing
     elsewhere = f"choose another file: {pasted('init', argument(drawing), '-o', 'FILE')}"
-    if os.path.lexists(target):
-        raise ConfigError("exists already", str(target), elsewhere)
+    if drawing.is_file():
+        _refuse_taken(target, elsewhere)  # before anybody waits for a proposal
+    proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
+    _refuse_taken(target, elsewhere)
     try:
         write_whole(target, proposal.text())
     except OSError as error:
@@ -65,12 +66,19 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     return target
 
 
+def _refuse_taken(target: Path, elsewhere: str) -> None:
+    from wrapit.errors import ConfigError
+
+    if os.path.lexists(target):
+        raise ConfigError("exists already", str(target), elsewhere)
+
+
 @app.command()
 def coupon(
     configs: Annotated[
         list[Path] | None,
         typer.Argument(
-            metavar="[CONFIG...]",
+            metavar="CONFIG",
             autocompletion=completing.configs,
             help="Take wire, kerf and clearance from these configs.",
         ),

@@ -13,7 +13,7 @@ from wrapit.config import named_after
 from wrapit.config.loading import load
 from wrapit.errors import DrawingError, Finding, UnheldError
 from wrapit.pipeline import report as reports
-from wrapit.pipeline.cache.place import usual_store
+from wrapit.pipeline.cache.place import FOLDER, usual_store
 from wrapit.pipeline.cache.remembering import UnreadableEntry
 from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renamed_beside_others, staged
 from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
@@ -115,7 +115,7 @@ def _built(work: Work, folder: Path | None, sources: tuple[Path, ...], asked: St
         untold = Finding(
             "note",
             "cache",
-            str(work.store.folder),
+            str(work.store.folder or FOLDER),
             f"nothing is kept there for the next build ({work.store.trouble})",
             "free space, or name another folder in WRAPIT_CACHE (`off` for none)",
         )

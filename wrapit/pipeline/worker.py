@@ -153,8 +153,7 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
     _end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
     let_through()  # they were held at the start
-    with Path(os.devnull).open("w") as nowhere:
-        os.dup2(nowhere.fileno(), 1)  # the kernel's writers chat on stdout, which belongs to the report
+    nothing_on_stdout()  # the kernel's writers chat there
     for module in preload:
         importlib.import_module(module)
     while True:
@@ -172,6 +171,12 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             connection.send(answer)
         except BrokenPipeError:
             return  # the parent is gone
+
+
+def nothing_on_stdout() -> None:
+    """Points stdout at nothing in a process beside the one whose report or link it carries."""
+    with Path(os.devnull).open("w") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
 
 
 def _end_with_parent() -> None:

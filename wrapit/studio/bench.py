@@ -21,6 +21,7 @@ from typing import Any, Final
 
 from wrapit.errors import WrapItError
 from wrapit.pipeline.output.guards import let_through
+from wrapit.pipeline.worker import nothing_on_stdout
 from wrapit.units import printable
 
 ORDERS: Final = "wrapit.studio.orders"
@@ -39,7 +40,7 @@ class Bench:
     def __init__(self, tell: Callable[[Message], None]) -> None:
         self._tell = tell
         self._process: Any = None
-        self._connection: Connection | None = None
+        self._connection: Any = None
         self._busy = False
         self._number = 0
         self._leaving: list[threading.Thread] = []
@@ -142,8 +143,7 @@ def _serve(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
     signal.signal(signal.SIGTERM, _leave)
     let_through()
-    with open(os.devnull, "w") as nowhere:  # noqa: PTH123  a device, on every system
-        os.dup2(nowhere.fileno(), 1)  # stdout is one line, the server's
+    nothing_on_stdout()
     orders = importlib.import_module(ORDERS)
     while True:
         try:

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tests.conftest import CONFIGS
+from tests.conftest import CONFIGS, OPENED
 from tests.jig.metal import arcs, line, wires_of
 from wrapit import check
 from wrapit.config import Config
@@ -52,7 +52,7 @@ def test_a_wire_in_the_plate_is_noticed(jig: tuple[Made, Wires]) -> None:
         judged(made, wires, thicker)
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in CONFIGS.glob("*.yaml")))
+@pytest.mark.parametrize("name", OPENED)
 def test_our_pieces_are_judged(name: str) -> None:
     report = check(CONFIGS / f"{name}.yaml", ["jigs=[printed]"], exact=True).report
     assert report["jig"]["interference_mm3"] == 0

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from wrapit.errors import ConfigError
 from wrapit.pipeline.cache import store as stores
+from wrapit.pipeline.cache.fingerprint import fingerprint
 from wrapit.pipeline.cache.place import usual_store
 from wrapit.pipeline.cache.sealed import Entry, opened, sealed
 from wrapit.pipeline.cache.store import Store
@@ -94,6 +95,36 @@ def test_where_no_folder_can_be_nothing_is_kept(tmp_path: Path, blocked: str) ->
     store.trim()
 
 
+def test_what_another_build_trims_meanwhile_is_missing(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    store.put("a", ENTRY)
+    usual = Store.has
+
+    def trimmed_behind(self: Store, key: str) -> bool:
+        found = usual(self, key)
+        place(self, key).unlink(missing_ok=True)
+        return found
+
+    monkeypatch.setattr(Store, "has", trimmed_behind)
+    assert (store.get("a"), store.trouble) == (None, "")
+
+
+def test_where_nobody_may_look_nothing_is_found(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(path: Path) -> bool:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "is_file", refused)
+    assert (store.has("a"), store.get("a")) == (False, None)
+    assert store.trouble == "permission denied"
+
+
+def test_where_the_name_is_too_long_nothing_is_kept(tmp_path: Path) -> None:
+    store = Store(tmp_path / ("a" * 300), MB)
+    assert not store.has("a")
+    store.put("a", ENTRY)
+    assert store.get("a") is None
+    assert store.trouble != ""
+
+
 def test_an_entry_that_is_open_elsewhere_stays(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     store.put("a", ENTRY)
 
@@ -123,6 +154,14 @@ def test_what_was_used_longest_ago_goes_first(store: Store) -> None:
     assert not store.has("huge")
 
 
+def test_a_bound_that_was_lowered_is_kept_to(store: Store) -> None:
+    store.put("a", ENTRY)
+    none_more = Store(store.folder, 0)
+    none_more.put("b", ENTRY)
+    none_more.trim()
+    assert not store.has("a")
+
+
 def test_what_a_killed_process_left_goes_when_it_is_old(store: Store) -> None:
     store.put("a", ENTRY)
     old, young = (place(store, "a").with_name(f".{name}.partial") for name in ("old", "young"))
@@ -150,3 +189,31 @@ def test_the_environment_says_where_and_how_much(tmp_path: Path, monkeypatch: py
     assert usual is not None
     assert usual.is_absolute()
     assert "wrapit" in usual.parts
+
+
+def test_a_user_without_a_home_keeps_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def homeless(*_: object, **__: object) -> Path:
+        raise RuntimeError("could not determine the home directory")
+
+    monkeypatch.delenv("WRAPIT_CACHE", raising=False)
+    monkeypatch.setattr("platformdirs.user_cache_path", homeless)
+    assert (usual_store().folder, usual_store().trouble) == (None, "no home folder is known")
+    monkeypatch.setenv("WRAPIT_CACHE", "~nobody-of-this-name/cache")
+    with pytest.raises(
+        ConfigError, match=r"WRAPIT_CACHE: .* is in no home that is known; write the whole path"
+    ):
+        usual_store()
+
+
+def test_files_that_come_and_go_are_no_part_of_the_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "wrapit"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / ".#build.py").symlink_to("somebody@here.1234")  # as Emacs marks a file that it has open
+    monkeypatch.setattr("wrapit.__file__", str(package / "__init__.py"))
+    said = fingerprint.__wrapped__()
+    assert said == fingerprint.__wrapped__()
+    (package / "build.py").write_text("x = 1")
+    assert said != fingerprint.__wrapped__()

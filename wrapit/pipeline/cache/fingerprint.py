@@ -34,7 +34,10 @@ def _files(package: Path) -> Iterator[str]:
     for folder, inner, names in os.walk(package):
         inner[:] = sorted(name for name in inner if name != "__pycache__")
         for name in sorted(names):
-            about = (Path(folder) / name).stat()
+            try:
+                about = (Path(folder) / name).lstat()  # editors mark open files with links to nowhere
+            except FileNotFoundError:
+                continue  # and keep files of their own for moments
             yield f"{Path(folder).relative_to(package)}/{name} {about.st_size} {about.st_mtime_ns}"
 
 

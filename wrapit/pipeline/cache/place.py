@@ -18,7 +18,7 @@ USUAL_MB: Final = 1000
 def usual_store(*, reading: bool = True) -> Store:
     """The store in the user's cache folder, or where `WRAPIT_CACHE` says.
 
-    Raises ConfigError where `WRAPIT_CACHE_MB` is no number.
+    Raises ConfigError where `WRAPIT_CACHE` is in nobody's home, or `WRAPIT_CACHE_MB` is no number.
     """
     said = os.environ.get(FOLDER)
     if said is not None and said.strip().lower() in ("", "off"):
@@ -26,9 +26,17 @@ def usual_store(*, reading: bool = True) -> Store:
     if said is None:
         from platformdirs import user_cache_path
 
-        root = user_cache_path("wrapit", appauthor=False)
+        try:
+            root = user_cache_path("wrapit", appauthor=False)
+        except RuntimeError:  # a user without a home, as services and containers have them
+            return Store(trouble="no home folder is known")
     else:
-        root = Path(said).expanduser()
+        try:
+            root = Path(said).expanduser()
+        except RuntimeError:
+            raise ConfigError(
+                f"{said!r} is in no home that is known", FOLDER, "write the whole path"
+            ) from None
     # A folder of its own within, for its rights are changed to the user's alone.
     return Store((root / "stages").absolute(), _most_mb() * 1_000_000, reading)
 

@@ -35,7 +35,7 @@ class Store:
     most_bytes: int = 0
     reading: bool = True
     trouble: str = ""
-    _wrote: bool = False
+    _trimmed: bool = True
 
     def unread(self) -> Store:
         """The same folder, where everything is made anew and kept instead of what is there."""
@@ -43,7 +43,13 @@ class Store:
 
     def has(self, key: str) -> bool:
         """Whether there seems to be an entry; `get` may find it spoilt."""
-        return self.reading and self.folder is not None and self._place(key).is_file()
+        if not self.reading or self.folder is None:
+            return False
+        try:
+            return self._place(key).is_file()
+        except OSError as error:  # nobody may look into the folder, or its name is too long
+            self._note(error)
+            return False
 
     def get(self, key: str) -> Entry | None:
         """The entry of a key, which counts as used now; a spoilt one is thrown away."""
@@ -53,6 +59,8 @@ class Store:
         try:
             _refuse_others(path.parent)
             data = path.read_bytes()
+        except FileNotFoundError:
+            return None  # another build has just trimmed it away
         except OSError as error:
             self._note(error)
             return None
@@ -71,21 +79,22 @@ class Store:
         if self.folder is None or self.trouble:
             return
         data = sealed(key, entry)
-        if len(data) > self.most_bytes:
-            return  # it alone would push out all others
+        if len(data) > self.most_bytes:  # it alone would push out all others
+            self._trimmed = False  # but the bound may be a new one that those exceed
+            return
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             _refuse_others(self.folder)
             if shutil.disk_usage(self.folder).free < len(data) + LEAST_FREE_BYTES:
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             _write_whole(self._place(key), data)
-            self._wrote = True
+            self._trimmed = False
         except OSError as error:
             self._note(error)
 
     def trim(self) -> None:
         """Takes away what was used longest ago, down to `most_bytes`, and what killed processes left."""
-        if self.folder is None or not self._wrote:
+        if self.folder is None or self._trimmed:
             return
         aged: list[tuple[float, int, Path]] = []
         with contextlib.suppress(OSError), os.scandir(self.folder) as found:

@@ -99,16 +99,18 @@ export function canvas(state, selected, layers, picture, pick) {
   drawing.junctions.forEach(([x, y], index) => {
     const classes = ["place", ends[index].length === 1 && "end", selected.junction === index && "selected"];
     children.push(
-      svg("circle", {
-        class: classes.filter(Boolean).join(" "),
-        cx: x,
-        cy: -y,
-        r: 0.8 * unit,
-        "stroke-width": unit / 4,
-        "data-junction": index,
-        "aria-pressed": String(selected.junction === index),
-        ...pressable(ends[index].length === 1 ? `end ${index}` : `junction ${index}`, () => pick.junction(index)),
-      }),
+      svg(
+        "g",
+        {
+          class: classes.filter(Boolean).join(" "),
+          "stroke-width": unit / 4,
+          "data-junction": index,
+          "aria-pressed": String(selected.junction === index),
+          ...pressable(ends[index].length === 1 ? `end ${index}` : `junction ${index}`, () => pick.junction(index)),
+        },
+        svg("circle", { class: "reach", cx: x, cy: -y, r: 2.2 * unit }), // as fingers need
+        svg("circle", { cx: x, cy: -y, r: 0.8 * unit }),
+      ),
     );
   });
   const asked = new Set([...selected.segments, ...(ends[selected.junction] ?? []).map(([segment]) => segment)]);
