@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import time
+import webbrowser
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import pytest
 
 from tests.studio.running import CONFIG, PICTURE, ROOT, Studio, running, with_piece
 from tests.studio.test_studio_command import children_of
+from wrapit.studio import server
 
 SIZE = {"set": {"size": "70 mm"}}
 
@@ -86,6 +88,18 @@ def test_a_config_that_nobody_may_write_stays_as_it_is(studio: Studio) -> None:
     assert studio.config.read_text("utf-8") == CONFIG
     studio.config.chmod(0o644)
     assert studio.post("/change", SIZE)[0] == 200
+
+
+def test_a_config_that_is_gone_comes_back(studio: Studio) -> None:
+    assert studio.post("/change", SIZE)[0] == 200
+    studio.config.unlink()
+    state = studio.until(lambda state: state["problem"] is not None)
+    assert (state["problem"]["problem"], state["can_undo"]) == ("the config is gone or empty", True)
+    assert studio.post("/change", SIZE)[0] == 422
+    assert studio.post("/undo", {})[0] == 200
+    assert studio.config.read_text("utf-8") == CONFIG.replace("60 mm", "70 mm")
+    assert studio.post("/undo", {})[0] == 200
+    assert studio.config.read_text("utf-8") == CONFIG
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
@@ -168,6 +182,36 @@ def test_a_process_that_is_to_leave_says_nothing_of_it() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert (ran.returncode, ran.stderr) == (128 + signal.SIGTERM, "")
+
+
+@pytest.mark.parametrize(
+    ("first", "chosen", "opened"),
+    [
+        (webbrowser.BackgroundBrowser("firefox"), "", True),
+        (webbrowser.GenericBrowser("lynx"), "", False),
+        (webbrowser.GenericBrowser("lynx"), "lynx", True),
+        (None, "", False),
+    ],
+)
+def test_a_browser_is_opened_that_leaves_the_terminal_alone(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    first: webbrowser.BaseBrowser | None,
+    chosen: str,
+    opened: bool,
+) -> None:
+    def get() -> webbrowser.BaseBrowser:
+        if first is None:
+            raise webbrowser.Error("could not locate runnable browser")
+        return first
+
+    links: list[str] = []
+    monkeypatch.setenv("BROWSER", chosen)
+    monkeypatch.setattr(webbrowser, "get", get)
+    monkeypatch.setattr(webbrowser, "open", lambda link: links.append(link) is None)
+    server._open("http://127.0.0.1:1/")
+    assert bool(links) == opened
+    assert ("open the link yourself" in capsys.readouterr().err) == (not opened)
 
 
 def said(folder: Path, *arguments: str) -> tuple[int, str]:

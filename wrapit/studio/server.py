@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import os
 import signal
 import socket
 import sys
@@ -87,7 +88,7 @@ class _Server(uvicorn.Server):
 
 def _is_worth_saying(record: logging.LogRecord) -> bool:
     """Not that a signal cut off who hadn't sent or fetched all by then: to end is what was asked."""
-    cut_off = bool(record.exc_info) and isinstance(record.exc_info[1], asyncio.CancelledError)
+    cut_off = record.exc_info is not None and isinstance(record.exc_info[1], asyncio.CancelledError)
     return not cut_off and "timeout graceful shutdown" not in str(record.msg)
 
 
@@ -107,5 +108,11 @@ def _listening(port: int) -> socket.socket:
 def _open(link: str) -> None:
     import webbrowser
 
-    if not webbrowser.open(link):
+    try:
+        first = type(webbrowser.get())
+    except webbrowser.Error:
+        first = None
+    # One that shows pages in the terminal would take it from us; whoever set BROWSER wants what it says.
+    in_terminal = first is webbrowser.GenericBrowser and not os.environ.get("BROWSER")
+    if first is None or in_terminal or not webbrowser.open(link):
         print("no browser could be opened: open the link yourself", file=sys.stderr)

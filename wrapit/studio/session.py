@@ -97,7 +97,7 @@ class Session:
             "again": problem is not None and now.problem is None,
             "building": building.progress,
             "fresh": building.fresh,
-            "can_undo": self._history.before() is not None,
+            "can_undo": self._history.before() is not None or not now.content,
             "can_redo": self._history.after() is not None,
             "controls": controls(data),
             "constraints": constraint_entries(data),
@@ -220,6 +220,8 @@ class Session:
         if self._notice(content):
             problem = "the file has just been changed in an editor"
             raise RefusedError(409, ConfigError(problem, self.path.name, f"look at it, and {what} again"))
+        if not content and what == "undo":  # the file is gone: its last step is what is to come back
+            there, go = (lambda: self._history.current), (lambda: None)
         target = there()
         if target is None:
             raise RefusedError(409, ConfigError(f"there is nothing to {what}", self.path.name))

@@ -80,6 +80,9 @@ def write(path: Path, text: str) -> None:
     """Writes the config whole, through links, with the rights that it had. Raises ConfigError."""
     target = Path(os.path.realpath(path))
     try:
+        if not target.exists():  # an undo brings it back
+            write_whole(target, text)
+            return
         mode = target.stat().st_mode & 0o7777
         # A file that is put in its place would pass over that.
         if not mode & _WRITABLE or not os.access(target, os.W_OK):
