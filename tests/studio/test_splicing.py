@@ -168,6 +168,11 @@ def test_constraints_come_and_go_by_their_number(text: str, data: st.DataObject)
             "drawing: a.png\nguide: &g {units: mm}\nname: x\n",
         ),
         (
+            "drawing: a.png\njigs:\n- printed  # a\n- sheet\n# kept\n\n\n",
+            {"set": {"jigs": ["pegs"]}},
+            "drawing: a.png\njigs:\n- pegs\n# kept\n\n\n",
+        ),
+        (
             "drawing: a.png\njigs: [\n  pegs,  # a\n  sheet,  # b\n]\n",
             {"set": {"jigs": ["sheet"]}},
             "drawing: a.png\njigs: [\n  sheet,  # b\n]\n",

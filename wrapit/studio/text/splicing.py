@@ -72,7 +72,7 @@ def relisted(text: str, keys: Sequence[str], values: Sequence[Any]) -> str:
     for index, item in enumerate(old):
         if len(kept) < len(values) and item == values[len(kept)]:
             kept.append(index)
-    if not kept:
+    if not kept and (node.flow_style or not values):
         return _exchanged(text, node, list(values))
     added = values[len(kept) :]
     if node.flow_style:
