@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -164,7 +165,8 @@ def test_a_linked_config_stays_a_link(tmp_path: Path) -> None:
         assert "70 mm" in (folder / "real" / "ours.yaml").read_text()
 
 
-def test_alternatives_come_and_go_with_what_they_are_of(tmp_path: Path) -> None:
+@pytest.mark.parametrize("change", [{"size": "75 mm"}, {"bail": True}, {"guide.margin": "60 mm"}])
+def test_alternatives_come_and_go_with_what_they_are_of(tmp_path: Path, change: dict[str, Any]) -> None:
     with running(with_piece(tmp_path), "leaf.yaml") as studio:
         studio.built()
         status, _ = studio.post("/alternatives", {"count": 2})
@@ -175,7 +177,7 @@ def test_alternatives_come_and_go_with_what_they_are_of(tmp_path: Path) -> None:
         assert all(len(wire["points"]) > 1 for each in found for wire in each["drawn"])
         studio.post("/change", {"set": {"guide.units": "in"}})
         assert studio.state()["alternatives"] == found
-        studio.post("/change", {"set": {"size": "75 mm"}})
+        studio.post("/change", {"set": change})
         assert studio.state()["alternatives"] is None
 
 

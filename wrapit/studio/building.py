@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import hashlib
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
 from wrapit.config import Config
+from wrapit.pipeline.reads import Keys
 from wrapit.studio.bench import Bench, Message
 
 GATHER_S: Final = 0.1
@@ -95,12 +94,13 @@ class Building:
         """What alternatives depend upon, as a hash."""
         if config is None:
             return ""
-        parts = config.model_dump(
-            mode="json", include={"drawing", "size", "tracing", "decomposition", "wire"}
+        # Choosing one of them changes none of them.
+        best = config.decomposition.model_copy(update={"choice": 1})
+        drawing = self._path.parent / config.drawing
+        keys = Keys(
+            config.model_copy(update={"decomposition": best}), str(signature(drawing)), drawing.suffix
         )
-        parts["decomposition"].pop("choice", None)  # choosing one of them changes none of them
-        text = json.dumps([parts, signature(self._path.parent / config.drawing)], sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()
+        return keys.of("alternatives")
 
 
 def signature(path: Path) -> tuple[int, ...] | None:
