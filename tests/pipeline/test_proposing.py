@@ -30,8 +30,8 @@ def init(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
 @pytest.mark.parametrize("name", ["leaf", "bee"])
 def test_the_proposed_size_is_held(tmp_path: Path, name: str) -> None:
     drawing = CONFIGS / f"{name}.png"
-    proposal, makeable = propose_makeable(drawing, tmp_path)
-    assert makeable
+    proposal, fit = propose_makeable(drawing, tmp_path)
+    assert fit == "sound"
     assert proposal.size_mm >= propose(drawing, tmp_path).size_mm
     (tmp_path / "x.yaml").write_text(proposal.text(), encoding="utf-8")
     config = load_config(tmp_path / "x.yaml")
@@ -42,13 +42,14 @@ def test_the_proposed_size_is_held(tmp_path: Path, name: str) -> None:
 def test_the_first_size_that_does_is_taken(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     drawing = CONFIGS / "leaf.png"
     monkeypatch.setattr(proposing, "held_share", lambda config, path: 1.0 if config.size >= 55 else 0.2)
-    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: config.size < 80)
+    monkeypatch.setattr(proposing, "_too_tight", lambda config, path: max(1.0, 79 / config.size))
     assert propose_makeable(drawing, tmp_path)[0].size_mm == 80
-    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: True)
-    assert propose_makeable(drawing, tmp_path)[0].size_mm == 55
+    monkeypatch.setattr(proposing, "_too_tight", lambda config, path: 3.0)
+    proposal, fit = propose_makeable(drawing, tmp_path)
+    assert (proposal.size_mm, fit) == (55, "tight")
     monkeypatch.setattr(proposing, "held_share", lambda config, path: 0.2)
-    proposal, makeable = propose_makeable(drawing, tmp_path)
-    assert not makeable
+    proposal, fit = propose_makeable(drawing, tmp_path)
+    assert fit == "unheld"
     assert proposal.size_mm == propose(drawing, tmp_path).size_mm
 
 
@@ -76,7 +77,7 @@ def test_what_is_tried_is_what_is_written(
         return 1.0 if len(tried) == 3 else 0.0
 
     monkeypatch.setattr(proposing, "held_share", holds_the_third)
-    monkeypatch.setattr(proposing, "_bends_tightly", lambda config, path: False)
+    monkeypatch.setattr(proposing, "_too_tight", lambda config, path: 1.0)
     proposal, _ = propose_makeable(CONFIGS / "leaf.png", tmp_path, preset)
     path = tmp_path / "leaf.yaml"
     path.write_text(proposal.text(), encoding="utf-8")

@@ -52,7 +52,7 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     elsewhere = f"choose another file: {pasted('init', argument(drawing), '-o', 'FILE')}"
     if drawing.is_file():
         _refuse_taken(target, elsewhere)  # before anybody waits for a proposal
-    proposal, makeable = propose_makeable(drawing, output.parent if output is not None else None, preset)
+    proposal, fit = propose_makeable(drawing, output.parent if output is not None else None, preset)
     _refuse_taken(target, elsewhere)
     try:
         write_whole(target, proposal.text())
@@ -60,9 +60,11 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
         raise ConfigError(f"can't be written ({error.strerror})", str(target), elsewhere) from None
     for finding in proposal.findings:
         say(f"{finding.level}: {finding.where}: {finding.message}")
-    if not makeable:
-        remedy = f"see {pasted('check', argument(target))}"
+    remedy = f"see {pasted('check', argument(target))}"
+    if fit == "unheld":
         say(f"warning: no usual size was found at which a jig holds it; {remedy}")
+    if fit == "tight":
+        say(f"warning: at every usual size some bends are tighter than this wire takes; {remedy}")
     return target
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
+from typing import Literal
 
 from wrapit.config import Config
 from wrapit.config.texts.reading import read_yaml
@@ -13,10 +15,16 @@ from wrapit.pipeline.remedies import held_share
 
 # Nobody waits longer for a proposal than for a build without solids. A size takes 0.5 to 3 s on our drawings.
 _PATIENCE_S = 20.0
+# Traced anew at another size, bends come out a little wider or tighter: so much smaller a piece may do too.
+_NEARLY = 0.9
 
 
-def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -> tuple[Proposal, bool]:
-    """The proposal for a drawing, and whether its size was found to do.
+Fit = Literal["sound", "tight", "unheld"]
+"""Of a proposed size: the jig holds it and bends are wide enough; some aren't; the jig holds too little."""
+
+
+def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -> tuple[Proposal, Fit]:
+    """The proposal for a drawing, and what was found of its size.
 
     It is that of `propose`, at the first of the usual sizes from there on at which the jig holds enough and
     no wire bends more tightly than its metal takes; where none was found in time, at the first that is held.
@@ -25,19 +33,25 @@ def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -
     first = propose(path, folder, preset)
     until = time.monotonic() + _PATIENCE_S
     held: Proposal | None = None
-    for size_mm in (each for each in SIZES_MM if each >= first.size_mm):
+    least_mm = float(first.size_mm)
+    for size_mm in SIZES_MM:
+        if size_mm < least_mm:
+            continue
         proposal = first.at(size_mm)
         config = Config.model_validate(read_yaml(proposal.text(), str(path)))  # what will be built
+        too_tight = _too_tight(config, path)
         if held_share(config, path) >= config.jig.least_support:
             held = held if held is not None else proposal
-            if not _bends_tightly(config, path):
-                return proposal, True
+            if too_tight <= 1:
+                return proposal, "sound"
+            least_mm = _NEARLY * size_mm * too_tight  # bends widen as the piece grows
         if time.monotonic() > until:
             break
-    return (held, True) if held is not None else (first, False)
+    return (held, "tight") if held is not None else (first, "unheld")
 
 
-def _bends_tightly(config: Config, path: Path) -> bool:
+def _too_tight(config: Config, path: Path) -> float:
+    """How many times wider the tightest bend would have to be; 1 where all are wide enough."""
     from wrapit.decomposition.stage import decompose
     from wrapit.drawing.stage import trace
     from wrapit.wires.stage import draw_wires
@@ -46,5 +60,6 @@ def _bends_tightly(config: Config, path: Path) -> bool:
         drawing, _ = trace(path, config.tracing, config.size)
         _, findings = draw_wires(decompose(drawing, config.decomposition)[0], config)
     except WrapItError:
-        return True  # what can't be drawn is no better
-    return any(finding.code == "tight-bend" and finding.level != "note" for finding in findings)
+        return math.inf  # what can't be drawn is no better
+    tight = (each for each in findings if each.code == "tight-bend" and each.level != "note")
+    return max((each.severity for each in tight), default=1.0)
