@@ -15,12 +15,12 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.clients.browser import PHONE, Fingers, Guide, letters_px, opened, overhang, started, state
-from tests.conftest import CONFIGS
+from tests.conftest import CONFIGS, OPENED
 from wrapit.pipeline.build import Build, build
 
 pytestmark = pytest.mark.client
 
-GALLERY = [*sorted(path.stem for path in CONFIGS.glob("*.yaml")), "German"]
+GALLERY = [*OPENED, "German"]
 # Looked at closely: a printed jig's, and one of flat jigs in German.
 CLOSELY = ["leaf", "German"]
 WIDTHS = [360, 414, 768, 1024, 1400]

@@ -33,8 +33,14 @@ def browser(program: Callable[[str], str]) -> Iterator[Browser]:
         browser.close()
 
 
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("studio") / "cache"
+
+
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[Studio]:
+def studio(tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Studio]:
+    monkeypatch.setenv("WRAPIT_CACHE", str(cache))  # as people have one
     shutil.copy2(CONFIGS / "leaf.svg", tmp_path / "leaf.svg")
     (tmp_path / "leaf.yaml").write_text(CONFIG, encoding="utf-8")
     studio = Studio(tmp_path, "leaf.yaml")

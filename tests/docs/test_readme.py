@@ -90,7 +90,8 @@ def test_commands_of_wrapit_run_in_their_order(desk: Path) -> None:
         told = subprocess.run(
             [sys.executable, "-m", "wrapit", *arguments],
             cwd=desk,
-            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            # With a cache, as people have one.
+            env={**os.environ, "PYTHONPATH": str(ROOT), "WRAPIT_CACHE": str(desk.parent / "cache")},
             capture_output=True,
             encoding="utf-8",
             timeout=300,

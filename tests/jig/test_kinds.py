@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import pickle
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 
 from tests.jig.metal import arcs, line, wires_of
 from wrapit.config import Config
+from wrapit.config.loading import Loaded
 from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Line
 from wrapit.jig.contours import Contour, FlatDrawing
@@ -139,11 +141,14 @@ def _paper(wires: Wires, _: Config) -> Made:
 
 def test_a_new_kind_is_one_line_in_the_dict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Files, block of the report, findings and page come from the maker; no other code knows the kind."""
-    load = building.load_config
+    load = building.load
+
+    def loaded(*given: Any) -> Loaded:
+        real = load(*given)
+        return dataclasses.replace(real, config=real.config.model_copy(update={"jigs": ("paper", "sheet")}))
+
     # Only the config's own list of names would refuse it.
-    monkeypatch.setattr(
-        building, "load_config", lambda *given: load(*given).model_copy(update={"jigs": ("paper", "sheet")})
-    )
+    monkeypatch.setattr(building, "load", loaded)
     monkeypatch.setitem(JIGS, "paper", JigMaker("paper", False, _paper, lambda *given: 1.0))
     config = piece(tmp_path, 60, outputs=["dxf", "svg", "html"])
     result = build(config, tmp_path / "out")
@@ -164,6 +169,6 @@ def test_a_planned_jig_that_was_sent_makes_the_same() -> None:
     assert planned is not None
     sent = pickle.dumps(planned(wires, config))
     assert len(sent) < 400_000
-    made, here = pickle.loads(sent)(), JIGS["printed"].make(wires, config)
+    made, here = pickle.loads(sent).build(), JIGS["printed"].make(wires, config)
     assert made.numbers == here.numbers
     assert made.findings == here.findings

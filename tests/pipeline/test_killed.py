@@ -190,7 +190,7 @@ def converts():
     except BaseException:
         raise ImportError("the module could not be initialised") from None
 
-def app(arguments, standalone_mode):
+def app(arguments, standalone_mode, prog_name):
     AMID()
     time.sleep(30)
 
