@@ -13,6 +13,7 @@ import typer
 from wrapit import __version__
 from wrapit.calling import PROGRAM
 from wrapit.cli import completing
+from wrapit.cli.ending import heed
 from wrapit.units import printable
 
 if TYPE_CHECKING:
@@ -87,11 +88,16 @@ def dump(configs: list[Path], overrides: list[str] | None, as_json: bool) -> Non
 def with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) -> Build:
     """What `run` returns; in a terminal, the stage that it says it is at is shown meanwhile."""
     if quiet or not sys.stderr.isatty():
-        return run(lambda stage: None)
+        return run(lambda stage: heed())
     from rich.console import Console
 
     with Console(stderr=True).status("starting") as status:
-        return run(lambda stage: status.update(f"{stage} …"))
+
+        def told(stage: str) -> None:
+            heed()
+            status.update(f"{stage} …")
+
+        return run(told)
 
 
 def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: str = "") -> None:

@@ -17,6 +17,7 @@ from wrapit.calling import PROGRAM, pasted
 # Imported, they register what they hold.
 from wrapit.cli import batch_command, commands, facts, starting, studio_command  # noqa: F401
 from wrapit.cli.app import app, say
+from wrapit.cli.ending import Terminated, came
 from wrapit.errors import WrapItError
 
 # What shells give a program that Ctrl-C ended: 128 + SIGINT.
@@ -27,17 +28,6 @@ _COMPLETION = f"_{PROGRAM.upper()}_COMPLETE"
 _DISK = {errno.ENOSPC: "free space on the disk", errno.EDQUOT: "free space on the disk"}
 # Once more after a signal came where Python throws exceptions away: long enough to be out of there.
 _AGAIN_S = 0.01
-# The signals that asked this process to end.
-_came: list[int] = []
-
-
-class Terminated(BaseException):
-    """A signal asks the program to end; `exit_code` is what shells expect of it."""
-
-    def __init__(self, signum: int) -> None:
-        super().__init__(signum)
-        self.signum = signum
-        self.exit_code = 128 + signum
 
 
 def main() -> NoReturn:
@@ -81,7 +71,7 @@ def _arm() -> None:
 
 
 def _terminate(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001  the signature is Python's
-    _came.append(signum)
+    came.append(signum)
     for each in _ending():
         signal.signal(each, signal.SIG_IGN)  # clearing away is under way, and isn't to be ended half-way
     raise Terminated(signum)
@@ -124,8 +114,8 @@ def _exit_code(arguments: list[str]) -> int:
         _drop_stdout()  # the reader has seen enough, as `| head` has
         return 1
     except Exception as error:  # noqa: BLE001  the last line of defence: one line, not a traceback
-        if _came:  # native modules amid their loading make ImportErrors of what a signal raised
-            return _interrupted(128 + _came[0], arguments)
+        if came:  # native modules amid their loading make ImportErrors of what a signal raised
+            return _interrupted(128 + came[0], arguments)
         if "-vv" in arguments:
             import traceback
 
