@@ -71,3 +71,10 @@ def test_each_stage_shows_its_own(work: Work) -> None:
     assert {"drawing", "stage", "timings_s"} == keys["drawing"]
     assert {"energy", "optimal"} <= keys["decomposition"]
     assert "wires" in keys["wires"]
+
+
+def test_a_wire_is_drawn_as_thick_as_it_is(work: Work) -> None:
+    shown = shown_after("wires", work)["shown"]["wires"]
+    assert [each["diameter_mm"] for each in shown] == [
+        pytest.approx(wire.diameter_mm, abs=1e-3) for wire in work.wires
+    ]

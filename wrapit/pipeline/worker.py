@@ -186,6 +186,11 @@ def _end_with_parent() -> None:
 
         pr_set_pdeathsig = 1
         ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+    end_after_parent()
+
+
+def end_after_parent() -> None:
+    """Ends this process once the one that started it is gone; kernel work may keep it until it is done."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()

@@ -10,18 +10,17 @@ import asyncio
 import contextlib
 import importlib
 import multiprocessing
-import os
 import signal
 import sys
 import threading
 import traceback
 from collections.abc import Callable
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 from typing import Any, Final
 
 from wrapit.errors import WrapItError
 from wrapit.pipeline.output.guards import let_through
-from wrapit.pipeline.worker import nothing_on_stdout
+from wrapit.pipeline.worker import end_after_parent, nothing_on_stdout
 from wrapit.units import printable
 
 ORDERS: Final = "wrapit.studio.orders"
@@ -139,7 +138,7 @@ def _end(process: Any) -> None:
 
 
 def _serve(connection: Connection) -> None:
-    _end_with_parent()
+    end_after_parent()  # its kernel's process then ends with it
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
     signal.signal(signal.SIGTERM, _leave)
     let_through()
@@ -184,15 +183,3 @@ def _outcome(order: Callable[..., None], connection: Connection, arguments: Any)
 def _leave(signum: int, frame: object) -> None:  # noqa: ARG001  the signature is Python's
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # clearing away isn't to be ended half-way
     raise SystemExit(128 + signum)
-
-
-def _end_with_parent() -> None:
-    """Ends this process with the server, however that ends; its kernel's process then ends with it."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_after(sentinel: int) -> None:
-    wait([sentinel])
-    os._exit(1)

@@ -57,6 +57,7 @@ def wire_documents(wires: Sequence[Wire]) -> list[dict[str, Any]]:
         {
             "name": wire.name,
             "colour": wire.colour,
+            "diameter_mm": round(wire.diameter_mm, _DECIMALS),
             "closed": wire.closed,
             "points": polyline(wire),
             "segments": [[each.segment, each.reversed] for each in wire.traversals],

@@ -81,7 +81,7 @@ export function canvas(state, selected, layers, picture, pick) {
   if (layers.wires)
     for (const wire of wires)
       children.push(
-        svg("polyline", { class: "wire", points: line(wire.points), stroke: wire.colour, "stroke-width": (wire.diameter_mm ?? unit) * 0.8 }),
+        svg("polyline", { class: "wire", points: line(wire.points), stroke: wire.colour, "stroke-width": wire.diameter_mm }),
       );
   drawing.segments.forEach((each, index) => {
     const classes = ["hit", selected.segments.includes(index) && "selected", `segment-${index}`];
