@@ -13,7 +13,7 @@ from wrapit.config.jig import JigConfig
 from wrapit.config.naming import LONGEST_NAME, LONGEST_PATH, name_problem, path_problem
 from wrapit.config.pegs import PegsConfig
 from wrapit.config.plate import PlateConfig
-from wrapit.config.quantities import length, whole, wire_gauge
+from wrapit.config.quantities import Numbered, length, whole, wire_gauge
 from wrapit.config.tracing import TracingConfig
 from wrapit.materials import MetalName, Temper
 from wrapit.units import awg_diameter_mm
@@ -84,6 +84,19 @@ class Config(Block):
     guide: GuideConfig = GuideConfig()
     bail: BailConfig | None = None
     """A loop to hang the piece from, `{at: top, diameter: 5 mm}`; none unless given."""
+
+    fit: Literal["off", "gentle", "bold"] = "off"
+    """Make the drawing fit for this wire first: round what is too tight, merge and leave out what is too
+    small, `gentle` only where it has to be, `bold` for few wires and wide bends."""
+
+    keep: tuple[Numbered, ...] = Field(default=(), max_length=1000, examples=[[3, 7]])
+    """Segments that `fit` doesn't leave out; numbers as in the drawing that was read."""
+
+    drop: tuple[Numbered, ...] = Field(default=(), max_length=1000, examples=[[5]])
+    """Segments that are left out; numbers as in the drawing that was read."""
+
+    beads: Literal["never", "auto"] = "never"
+    """`auto`: small closed loops and dots of the drawing become beads of their size."""
 
     pair: bool = False
     """Also write the jig and the wires of the mirror image, for a pair of earrings."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from wrapit.config import Config, JigConfig
+from wrapit.config import Config
 from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Solution, Trail
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
+from wrapit.fit.limits import corner_radius_mm, least_radius_mm
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
-from wrapit.materials import METALS, min_inner_bend_radius_mm
+from wrapit.materials import METALS
 from wrapit.wires.bail import with_bail
 from wrapit.wires.centreline import FOLD_RAD, Joined, join
 from wrapit.wires.model import Wire
@@ -31,8 +32,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
     can't be made. With a bail, the end of one wire goes on into its loop.
     """
     drawing, wire = solution.decomposition.drawing, config.wire
-    radius_mm = min_inner_bend_radius_mm(wire.gauge, wire.temper) + wire.gauge / 2
-    corner_mm = _let_go_mm(max(radius_mm, _post_bend_mm(wire.gauge, config.jig)), config)
+    radius_mm, corner_mm = least_radius_mm(config), corner_radius_mm(config)
     joined = [join(_curves(drawing, trail), corner_mm) for trail in solution.trails]
     joined, bails, said = with_bail(joined, drawing, config)
     names = [wire_name(index) for index in range(len(joined))]
@@ -72,19 +72,6 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
             )
         )
     return tuple(wires), tuple(findings)
-
-
-def _post_bend_mm(diameter_mm: float, jig: JigConfig) -> float:
-    """Radius of the tightest bend with room for a printable post on its inside, 0 if that doesn't count."""
-    return diameter_mm / 2 + jig.clearance + jig.min_wall_width / 2 if jig.post_bends else 0.0
-
-
-def _let_go_mm(radius_mm: float, config: Config) -> float:
-    """What a bend of this radius in the jig becomes when it is let go, if the jig makes up for that."""
-    if config.jig.springback == "report":
-        return radius_mm
-    wire = config.wire
-    return 1 / (1 / radius_mm - METALS[wire.metal].springback_per_mm(wire.gauge, wire.temper))
 
 
 def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:

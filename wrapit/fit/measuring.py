@@ -1,0 +1,100 @@
+"""How fit a sketch is for wire, and what it cost to make it so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final
+
+import numpy as np
+
+from wrapit.drawing.model import Drawing
+from wrapit.fit.faces import Faces, faces_of
+from wrapit.fit.model import Costs, Limits, Measures
+from wrapit.fit.sketch import Sketch
+from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.bezier import derivative, second_derivative
+from wrapit.geometry.disjoint_sets import Sets
+
+# A bend is tight where it is this much tighter than the limit: what rounding and fitting leave.
+TIGHT: Final = 1.01
+# Curvature is looked at so often within each cubic.
+_PLACES: Final = 33
+# A bend inside a line by more than this (rad) is a corner, whatever the curvature beside it.
+_CORNER_RAD: Final = 0.02
+# How finely distances of lines are measured.
+_STEP_MM: Final = 0.1
+
+
+def measures(sketch: Sketch, limits: Limits, faces: Faces | None = None) -> Measures:
+    """How fit a sketch is; the smallest face is None where there is none."""
+    found = faces_of(sketch) if faces is None else faces
+    return Measures(
+        segments=len(sketch.lines),
+        wires=fewest_wires(sketch),
+        tight_bends=sum(tight_bends(line.curve, limits.radius_mm) for line in sketch.lines.values()),
+        smallest_face_mm=min((face.inside_mm for face in found.faces), default=None),
+        length_mm=sum(line.curve.length for line in sketch.lines.values()),
+    )
+
+
+def fewest_wires(sketch: Sketch) -> int:
+    """The fewest wires that can run along all lines once: half the odd nodes, one at least for each piece."""
+    pieces = Sets()
+    for line in sketch.lines.values():
+        pieces.merge(line.start, line.end)
+    odd: dict[int, int] = {pieces.find(node): 0 for node in sketch.nodes}
+    for node, arms in sketch.arms.items():
+        odd[pieces.find(node)] += len(arms) % 2
+    return sum(max(1, count // 2) for count in odd.values())
+
+
+def curvatures(curve: BezierChain) -> FloatArray:
+    """Curvature at places spread along each cubic, (n, m), signed."""
+    t = np.linspace(0, 1, _PLACES)
+    d, dd = derivative(curve.points, t), second_derivative(curve.points, t)
+    speed = np.maximum(np.hypot(d[..., 0], d[..., 1]), 1e-9)
+    return np.asarray((d[..., 0] * dd[..., 1] - d[..., 1] * dd[..., 0]) / speed**3)
+
+
+def corners(curve: BezierChain) -> FloatArray:
+    """Bends (rad) at the joints of a chain, (n - 1,)."""
+    cubics = [BezierChain(cubic[None]) for cubic in curve.points]
+    arriving = np.array([cubic.end_tangent for cubic in cubics[:-1]]).reshape(-1, 2)
+    leaving = np.array([cubic.start_tangent for cubic in cubics[1:]]).reshape(-1, 2)
+    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+    return np.asarray(np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1))))
+
+
+def tight_bends(curve: BezierChain, radius_mm: float) -> int:
+    """How many stretches of a curve bend more tightly than a radius; a corner is one."""
+    tight = np.abs(curvatures(curve)) > TIGHT / radius_mm
+    tight[1:, 0] |= corners(curve) > _CORNER_RAD
+    runs = np.diff(np.r_[0, tight.ravel(), 0])
+    return int((runs == 1).sum())
+
+
+def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits) -> Costs:
+    """What was given up: of the outline, of the length, and in place where a line was kept."""
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(np.concatenate([line.curve.sampled(_STEP_MM) for line in after.lines.values()]))
+    kept = frozenset().union(*(line.origin for line in after.lines.values()))
+    near_mm, deviation_mm = limits.diameter_mm / 2 + _STEP_MM / 2, 0.0
+    seen = outer = left_out = whole = 0.0
+    for number, line in before.lines.items():
+        far = tree.query(line.curve.sampled(_STEP_MM))[0]
+        length = line.curve.length
+        whole += length
+        if number in outline:
+            outer += length
+            seen += length * float((far <= near_mm).mean())
+        if number in kept:
+            deviation_mm = max(deviation_mm, float(far.max()))
+        else:
+            left_out += length
+    return Costs(seen / outer if outer else 1.0, left_out / whole, deviation_mm)
+
+
+def unchanged(drawing: Drawing, sketch: Sketch) -> bool:
+    """Whether a sketch still is the drawing that it was made of."""
+    return not sketch.removed and len(drawing.segments) == len(sketch.lines)

@@ -1,0 +1,130 @@
+"""A drawing while it is changed: lines between nodes, each knowing which segments it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from wrapit.drawing.assembly import Piece, Placement, assemble
+from wrapit.drawing.model import Drawing, Removal
+from wrapit.geometry import BezierChain, FloatArray, joined
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A curve between two nodes, and the segments of the original drawing that it comes from."""
+
+    start: int
+    end: int
+    curve: BezierChain
+    origin: frozenset[int]
+
+    @property
+    def is_ring(self) -> bool:
+        """Whether it ends where it starts."""
+        return self.start == self.end
+
+    def reversed(self) -> Line:
+        """The same line travelled the other way."""
+        return Line(self.end, self.start, self.curve.reversed(), self.origin)
+
+
+# One end of a line: the line's number, and whether it is its last end.
+Arm = tuple[int, bool]
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """Nodes (points (2,) by number) and lines by number; both keep their numbers while others go.
+
+    `removed` tells what was changed so far.
+    """
+
+    nodes: Mapping[int, FloatArray]
+    lines: Mapping[int, Line]
+    removed: tuple[Removal, ...] = ()
+
+    @classmethod
+    def of(cls, drawing: Drawing) -> Sketch:
+        """A drawing as a sketch: junctions and segments keep their numbers."""
+        return cls(
+            {junction.id: junction.point for junction in drawing.junctions},
+            {s.id: Line(s.start, s.end, s.curve, frozenset((s.id,))) for s in drawing.segments},
+        )
+
+    @cached_property
+    def arms(self) -> dict[int, list[Arm]]:
+        """The ends of lines at each node, in the order of their numbers; a ring has two."""
+        arms: dict[int, list[Arm]] = {}
+        for number, line in sorted(self.lines.items()):
+            arms.setdefault(line.start, []).append((number, False))
+            arms.setdefault(line.end, []).append((number, True))
+        return arms
+
+    def leaving(self, arm: Arm) -> BezierChain:
+        """The curve of an arm, travelled away from its node."""
+        line = self.lines[arm[0]]
+        return line.curve.reversed() if arm[1] else line.curve
+
+    def changed(
+        self,
+        without: Iterable[int] = (),
+        lines: Mapping[int, Line] | None = None,
+        nodes: Mapping[int, FloatArray] | None = None,
+        told: Iterable[Removal] = (),
+    ) -> Sketch:
+        """The sketch without some lines, with others added or in place of those of the same number.
+
+        Nodes at which no line is left go.
+        """
+        gone = set(without)
+        kept = {number: line for number, line in self.lines.items() if number not in gone} | dict(lines or {})
+        used = {node for line in kept.values() for node in (line.start, line.end)}
+        points = {node: point for node, point in {**self.nodes, **(nodes or {})}.items() if node in used}
+        return Sketch(points, kept, (*self.removed, *told))
+
+    def simplified(self) -> Sketch:
+        """Two lines that meet at a node of their own are one; what is left of a ring starts anywhere."""
+        sketch = self
+        while True:
+            pair = next(
+                (arms for arms in sketch.arms.values() if len(arms) == 2 and arms[0][0] != arms[1][0]), None
+            )
+            if pair is None:
+                return sketch
+            (one, at_end), (other, at_other_end) = pair
+            first = sketch.lines[one] if at_end else sketch.lines[one].reversed()
+            then = sketch.lines[other].reversed() if at_other_end else sketch.lines[other]
+            both = Line(first.start, then.end, joined((first.curve, then.curve)), first.origin | then.origin)
+            sketch = sketch.changed((one, other), {min(one, other): both})
+
+    def drawing(self, original: Drawing) -> tuple[Drawing, tuple[tuple[int, ...], ...]]:
+        """The drawing, numbered as drawings are, in the original's frame; and each segment's origins."""
+        numbers = sorted(self.lines)
+        pieces = [
+            Piece(line.start, line.end, line.curve) for line in (self.lines[number] for number in numbers)
+        ]
+        plain = Placement(1.0, np.zeros(2), False)
+        made = assemble(dict(self.nodes), pieces, plain, width=None, changes=[], pixel_frame=False)
+        origins = self._origins(made)
+        return replace(
+            made,
+            stroke_width_mm=original.stroke_width_mm,
+            pixel_frame=original.pixel_frame,
+            removed=(*original.removed, *self.removed),
+        ), origins
+
+    def _origins(self, made: Drawing) -> tuple[tuple[int, ...], ...]:
+        """Assembling turns lines round and numbers them anew: they are known again by their middles."""
+        known = {_key(line.curve): tuple(sorted(line.origin)) for line in self.lines.values()}
+        return tuple(known[_key(segment.curve)] for segment in made.segments)
+
+
+def _key(curve: BezierChain) -> tuple[bytes, ...]:
+    """The same for a curve and for the curve travelled backwards, another for any other."""
+    there = (curve.points + 0.0).tobytes()
+    back = (np.ascontiguousarray(curve.points[::-1, ::-1]) + 0.0).tobytes()
+    return tuple(sorted((there, back)))
