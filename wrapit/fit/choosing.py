@@ -14,6 +14,7 @@ from wrapit.fit.model import Level, Limits
 from wrapit.fit.programme import Task, Weights, choose, needed_mm
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.worth import worths
+from wrapit.fit.zipping import zipped
 
 # What a wire less is worth, in mm of line inside the drawing that may go for it.
 _WIRE_MM: Final[dict[Level, float]] = {"gentle": 1.0, "bold": 6.0}
@@ -27,6 +28,8 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
     Lines that meet at a node of two are one. `keep` are segments of the original that stay. What can't be
     helped stays as it is.
     """
+    sketch = sketch.simplified()
+    sketch = zipped(sketch, limits, worths(sketch, faces_of(sketch), limits), keep)
     refused: set[int] = set()
     for turn in range(_ROUNDS):
         sketch = sketch.simplified()
@@ -40,7 +43,7 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
             faces,
             worth,
             limits,
-            _mergeable(sketch, limits, worth, refused | keep, pairs),
+            _mergeable(sketch, limits, worth, keep | refused, pairs),
             _staying(sketch, faces, limits, keep, mending=turn > 0),
             pairs,
             Weights(_WIRE_MM[level]),

@@ -100,15 +100,13 @@ def _moved(
     for other in sorted({arm[0] for end in ends for arm in sketch.arms[end]} - {number}):
         old = sketch.lines[other]
         line = grown.get(other, old)
-        shifts = []
-        for index, end in enumerate((old.start, old.end)):
-            is_grown = other in grown and np.array_equal(line.curve.end if index else line.curve.start, at)
-            moves = end in ends and not is_grown
-            shifts.append(at - (old.curve.end if index else old.curve.start) if moves else np.zeros(2))
+        targets = []
+        for node_there, own in ((old.start, line.curve.start), (old.end, line.curve.end)):
+            targets.append(at if node_there in ends else own)
         start, end = (node if each in ends else each for each in (old.start, old.end))
         curve = line.curve
-        if any(np.hypot(*shift) > 0 for shift in shifts):
-            curve, moved[other] = led(curve, shifts[0], shifts[1], blur_mm)
+        if not (np.array_equal(targets[0], curve.start) and np.array_equal(targets[1], curve.end)):
+            curve, moved[other] = led(curve, targets[0], targets[1], blur_mm)
         lines[other] = Line(start, end, curve, line.origin)
     result = sketch.changed((number,), lines, {node: at})
     if not is_planar(result, lines, sketch):
@@ -116,23 +114,21 @@ def _moved(
     return Merger(result, at, moved, not grown)
 
 
-def led(curve: BezierChain, first: FloatArray, last: FloatArray, blur_mm: float) -> tuple[BezierChain, float]:
-    """The curve with its ends shifted by two vectors, and all between by less the farther away it is.
+def led(curve: BezierChain, start: FloatArray, end: FloatArray, blur_mm: float) -> tuple[BezierChain, float]:
+    """The curve led to other ends, all between by less the farther away it is; straight lines stay straight.
 
     And how many mm of it have moved, as for `merged`.
     """
-    points = curve.sampled(STEP_MM).copy()
+    first, last = start - curve.start, end - curve.end
+    points = curve.sampled(STEP_MM)
     along = lengths(points)
     shift = _fading(along, first)[:, None] * first + _fading(along[-1] - along, last)[:, None] * last
     moved = points + shift
-    moved[0], moved[-1] = curve.start + first, curve.end + last
-    start, end = curve.start_tangent, curve.end_tangent
-    if np.hypot(*first) > 0:
-        start = _direction(moved)
-    if np.hypot(*last) > 0:
-        end = -_direction(moved[::-1])
+    moved[0], moved[-1] = start, end
+    leaving = _direction(moved) if first.any() else curve.start_tangent
+    arriving = -_direction(moved[::-1]) if last.any() else curve.end_tangent
     lost = np.minimum(1.0, (shift * shift).sum(axis=1) / blur_mm**2)
-    return fit(Stroke(moved, start, end), _TOLERANCE_MM), float(np.trapezoid(lost, along))
+    return fit(Stroke(moved, leaving, arriving), _TOLERANCE_MM), float(np.trapezoid(lost, along))
 
 
 def _fading(along: FloatArray, shift: FloatArray) -> FloatArray:
