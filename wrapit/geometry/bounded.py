@@ -286,7 +286,7 @@ def _course(old: BezierChain, radius: float, start: Held, end: Held, closed: boo
     reach = np.concatenate([[0.0], np.cumsum(np.abs(chords))])
     length = float(reach[-1])
     middles = np.concatenate([[0.0], (reach[1:] + reach[:-1]) / 2, [length]])
-    even = np.linspace(0.0, length, 8 * max(2, math.ceil(length / STEP / 2)) + 1)
+    even = np.linspace(0.0, length, 4 * max(2, math.ceil(length / STEP / 2)) + 1)
     points = np.concatenate([[0], np.cumsum(chords)])
     placed: ComplexArray = np.interp(even, reach, points.real) + 1j * np.interp(even, reach, points.imag)
     placed[-1] = complex(*((old.end - old.start) / radius))

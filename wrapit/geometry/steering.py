@@ -24,11 +24,14 @@ MOST_BEND: Final = 1 / 1.004
 STEP: Final = 0.6
 # Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
 ROUNDS: Final = 24
-SETTLED: Final = 1e-7
+SETTLED: Final = 2e-3
 # Ends and headings are met to this.
 CLOSED: Final = 1e-9
+CLOSING: Final = 8
 # Share of the distance along the path that counts beside the one square to it: keeps feet from sliding away.
-ALONG: Final = 0.15
+ALONG: Final = 0.5
+# How far along (in radii) the place on a course may be from the place on the path that it is nearest to.
+BAND: Final = 3.0
 # Weights that settle what points leave open: change of bends in a round, and from arc to arc.
 DAMPING: Final = 1e-3
 EVENNESS: Final = 1e-4
@@ -97,8 +100,21 @@ def steered(course: Course) -> Path | None:
         path, places = moved, _feet(moved, course.points, places)
         if change < SETTLED:
             break
-    off = _conditions(path, course)[1]
-    return path if np.abs(off).max(initial=0.0) < CLOSED else None
+    return _closed(path, course)
+
+
+def _closed(path: Path, course: Course) -> Path | None:
+    """The path with its ends met exactly by the least change of bends, None if that takes too long."""
+    n = len(path.bends)
+    for _ in range(CLOSING):
+        conditions, missing = _conditions(path, course)
+        if np.abs(missing).max(initial=0.0) < CLOSED:
+            return path
+        step = _within_bounds(np.eye(4 + n), np.zeros(4 + n), conditions, missing, path.bends)
+        if step is None:
+            return None
+        path = _stepped(path, step)
+    return None
 
 
 def _first(course: Course) -> Path:
@@ -125,12 +141,19 @@ def _first(course: Course) -> Path:
 def _nearer(path: Path, course: Course, places: FloatArray) -> Path | None:
     """One round: the best path as far as a linear view of it goes, bends within the bound, ends as held."""
     n = len(path.bends)
-    points, headings, _ = path.on(places)
-    turned = np.exp(-1j * headings)
-    slopes = _slopes(path, places, points) * turned[:, None]
-    off = (course.points - points) * turned
+    # Distances from the course to the path, across the path, and from the path to the course, across the course.
+    own = np.arange(2 * n + 1) / 2
+    both = np.concatenate([places, own])
+    points, headings, _ = path.on(both)
+    feet, ways = _nearest(course, points[len(places) :], path)
+    turned = np.exp(-1j * np.concatenate([headings[: len(places)], ways]))
+    slopes = _slopes(path, both, points) * turned[:, None]
+    off = (np.concatenate([course.points, feet]) - points) * turned
+    near = course.length / (len(places) - 1) / 2
+    along = off.real.copy()
+    along[len(places) :] -= np.clip(along[len(places) :], -near, near)
     rows = np.concatenate([slopes.imag, ALONG * slopes.real])
-    rest = np.concatenate([off.imag, ALONG * off.real])
+    rest = np.concatenate([off.imag, ALONG * along])
     share = course.length / len(places)
     square, pull = share * rows.T @ rows, share * rows.T @ rest
     bends = np.arange(4, 4 + n)
@@ -142,19 +165,25 @@ def _nearer(path: Path, course: Course, places: FloatArray) -> Path | None:
     step = _within_bounds(square, pull, conditions, missing, path.bends)
     if step is None:
         return None
-    turn = step[2] + np.concatenate([[0.0], np.cumsum(step[4:] * path.step)]) + (path.headings - path.heading) * step[3] / path.step
-    step *= min(1.0, MOST_TURN / max(float(np.abs(turn).max()), 1e-12))
-    # Moved by its middle, so that a path and the same path the other way move alike.
-    middle = n // 2
+    return _stepped(path, step)
+
+
+def _stepped(path: Path, step: FloatArray) -> Path:
+    """The path after a step, cut down where it would turn too far.
+
+    Moved by its middle, so that a path and the same path the other way move alike.
+    """
+    turns = step[2] + path.step * np.concatenate([[0.0], np.cumsum(step[4:])])
+    turns += (path.headings - path.heading) * (step[3] / path.step)
+    step = step * min(1.0, MOST_TURN / max(float(np.abs(turns).max()), 1e-12), path.step / 3 / max(abs(step[3]), 1e-12))
+    middle = len(path.bends) // 2
     at = np.array([float(middle)])
-    shift = complex((_slopes(path, at, path.joints[middle : middle + 1]) @ step)[0])
-    span = path.headings[middle] - path.heading
-    heading = path.headings[middle] + step[2] + path.step * step[4 : 4 + middle].sum() + span * step[3] / path.step
-    new = Path(0j, 0.0, np.clip(path.bends + step[4:], -MOST_BEND, MOST_BEND), path.step + step[3])
-    if new.step <= 0:
-        return None
-    new = Path(0j, float(heading - new.headings[middle]), new.bends, new.step)
-    return new.moved(complex(path.joints[middle] + shift - new.joints[middle]))
+    place = path.joints[middle] + (_slopes(path, at, path.joints[middle : middle + 1]) @ step)[0]
+    turn = step[2] + path.step * step[4 : 4 + middle].sum() + (path.headings[middle] - path.heading) * (step[3] / path.step)
+    bends = np.clip(path.bends + step[4:], -MOST_BEND, MOST_BEND)
+    new = Path(0j, 0.0, bends, path.step + step[3])
+    new = Path(0j, float(path.headings[middle] + turn - new.headings[middle]), bends, new.step)
+    return new.moved(complex(place - new.joints[middle]))
 
 
 def _slopes(path: Path, places: FloatArray, points: ComplexArray) -> ComplexArray:
@@ -235,6 +264,18 @@ def _within_bounds(
             return step
         lock = new
     return step
+
+
+def _nearest(course: Course, points: ComplexArray, path: Path) -> tuple[ComplexArray, FloatArray]:
+    """For points at even places along a path: the course's point nearest to each, and its heading there.
+
+    Only among those about as far along, so that the sides of a tip are not taken for one another.
+    """
+    shares = np.linspace(0, 1, len(points))[:, None] - np.linspace(0, 1, len(course.points))[None]
+    apart = np.abs(points[:, None] - course.points[None])
+    apart[np.abs(shares) * course.length > BAND] = np.inf
+    nearest = np.argmin(apart, axis=1)
+    return course.points[nearest], course.headings[nearest]
 
 
 def _feet(path: Path, points: ComplexArray, places: FloatArray) -> FloatArray:
