@@ -24,6 +24,7 @@ MOST_BEND: Final = 1 / 1.004
 STEP: Final = 0.6
 # Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
 ROUNDS: Final = 24
+SOFTER, EASING, MOST_GAP = 1.0, 0.3, 0.5
 SETTLED: Final = 2e-3
 # Ends and headings are met to this.
 CLOSED: Final = 1e-9
@@ -92,8 +93,8 @@ def steered(course: Course) -> Path | None:
     """The path nearest to a course in the least squares of the course's distances; None if no path is found."""
     path = _first(course)
     places = np.linspace(0.0, len(path.bends), len(course.points))
-    for _ in range(ROUNDS):
-        moved = _nearer(path, course, places)
+    for number in range(ROUNDS):
+        moved = _nearer(path, course, places, SOFTER * EASING**number)
         if moved is None:
             return None
         change = float(np.abs(moved.joints - path.joints).max())
@@ -138,7 +139,7 @@ def _first(course: Course) -> Path:
     return path.moved(complex((course.points - points).mean()))
 
 
-def _nearer(path: Path, course: Course, places: FloatArray) -> Path | None:
+def _nearer(path: Path, course: Course, places: FloatArray, softer: float) -> Path | None:
     """One round: the best path as far as a linear view of it goes, bends within the bound, ends as held."""
     n = len(path.bends)
     # Distances from the course to the path, across the path, and from the path to the course, across the course.
@@ -157,11 +158,13 @@ def _nearer(path: Path, course: Course, places: FloatArray) -> Path | None:
     share = course.length / len(places)
     square, pull = share * rows.T @ rows, share * rows.T @ rest
     bends = np.arange(4, 4 + n)
-    square[bends, bends] += DAMPING
+    square[bends, bends] += DAMPING + softer
     change = np.diff(np.eye(n), axis=0)
-    square[4:, 4:] += EVENNESS * change.T @ change
-    pull[4:] -= EVENNESS * change.T @ (change @ path.bends)
+    even = EVENNESS + softer
+    square[4:, 4:] += even * change.T @ change
+    pull[4:] -= even * change.T @ (change @ path.bends)
     conditions, missing = _conditions(path, course)
+    missing = missing * min(1.0, MOST_GAP / max(float(np.abs(missing).max(initial=0.0)), 1e-12))
     step = _within_bounds(square, pull, conditions, missing, path.bends)
     if step is None:
         return None
