@@ -308,7 +308,7 @@ def _cubics(path: Path) -> FloatArray:
         cuts += [first + run * (k + 1) / count for k in range(count)]
         first = last + 1
     places = np.array(cuts)
-    points, headings, _ = path.on(places)
+    points, headings = path.on(places)
     middle = path.bends[path.arc((places[1:] + places[:-1]) / 2)]
     turn = middle * np.diff(places) * path.step
     handle = np.diff(places) * path.step / 3 * np.where(np.abs(turn) > 1e-6, 4 * np.tan(turn / 4) / np.where(turn == 0, 1, turn), 1.0)

@@ -31,8 +31,6 @@ CLOSED: Final = 1e-9
 CLOSING: Final = 8
 # Share of the distance along the path that counts beside the one square to it: keeps feet from sliding away.
 ALONG: Final = 0.5
-# How far along (in radii) the place on a course may be from the place on the path that it is nearest to.
-BAND: Final = 3.0
 # Weights that settle what points leave open: change of bends in a round, and from arc to arc.
 DAMPING: Final = 1e-3
 EVENNESS: Final = 1e-4
@@ -61,12 +59,12 @@ class Path:
         """Ends of arcs, (n + 1,)."""
         return self.start + np.concatenate([[0.0], np.cumsum(_chord(self.headings[:-1], self.bends, self.step))])
 
-    def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray, FloatArray]:
-        """Points, headings and bends at places (m,), counted in arcs."""
+    def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray]:
+        """Points and headings at places (m,), counted in arcs."""
         arc = self.arc(places)
         run = (places - arc) * self.step
         bend, heading = self.bends[arc], self.headings[arc]
-        return self.joints[arc] + _chord(heading, bend, run), heading + bend * run, bend
+        return self.joints[arc] + _chord(heading, bend, run), heading + bend * run
 
     def arc(self, places: FloatArray) -> NDArray[np.int64]:
         """Number of the arc that a place is on."""
@@ -88,17 +86,49 @@ class Course:
     end: Held
     closed: bool = False
 
+    @property
+    def spacing(self) -> float:
+        """Length between neighbouring points."""
+        return self.length / (len(self.points) - 1)
+
+    def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray]:
+        """Points and headings at places (m,), counted in points."""
+        number = np.arange(len(self.points))
+        x, y = (np.interp(places, number, part) for part in (self.points.real, self.points.imag))
+        return x + 1j * y, np.interp(places, number, self.headings)
+
+
+@dataclass(frozen=True, eq=False)
+class Feet:
+    """Which place of the path is nearest to each point of the course, and which of the course to its own places."""
+
+    own: FloatArray
+    on_path: FloatArray
+    on_course: FloatArray
+
+    @classmethod
+    def first(cls, path: Path, course: Course) -> Feet:
+        """As far along one as along the other."""
+        n, m = len(path.bends), len(course.points)
+        own = np.arange(2 * n + 1) / 2
+        return cls(own, np.linspace(0.0, n, m), np.linspace(0.0, m - 1, len(own)))
+
+    def nearer(self, path: Path, course: Course) -> Feet:
+        """After the path was moved."""
+        on_path = _feet(path, course.points, self.on_path)
+        return Feet(self.own, on_path, _feet_on(course, path.on(self.own)[0], self.on_course))
+
 
 def steered(course: Course) -> Path | None:
     """The path nearest to a course in the least squares of the course's distances; None if no path is found."""
     path = _first(course)
-    places = np.linspace(0.0, len(path.bends), len(course.points))
+    feet = Feet.first(path, course)
     for number in range(ROUNDS):
-        moved = _nearer(path, course, places, SOFTER * EASING**number)
+        moved = _nearer(path, course, feet, SOFTER * EASING**number)
         if moved is None:
             return None
         change = float(np.abs(moved.joints - path.joints).max())
-        path, places = moved, _feet(moved, course.points, places)
+        path, feet = moved, feet.nearer(moved, course)
         if change < SETTLED:
             break
     return _closed(path, course)
@@ -107,11 +137,13 @@ def steered(course: Course) -> Path | None:
 def _closed(path: Path, course: Course) -> Path | None:
     """The path with its ends met exactly by the least change of bends, None if that takes too long."""
     n = len(path.bends)
+    # Where the path starts costs next to nothing, or its two ends would not be treated alike.
+    square = np.diag(np.r_[np.full(3, 1e-9), np.ones(n + 1)])
     for _ in range(CLOSING):
         conditions, missing = _conditions(path, course)
         if np.abs(missing).max(initial=0.0) < CLOSED:
             return path
-        step = _within_bounds(np.eye(4 + n), np.zeros(4 + n), conditions, missing, path.bends)
+        step = _within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends)
         if step is None:
             return None
         path = _stepped(path, step)
@@ -123,7 +155,7 @@ def _first(course: Course) -> Path:
     count = 2 * max(2, math.ceil(course.length / STEP / 2))
     step, m = course.length / count, len(course.points)
     low, high, headings = 0, 4 * m, course.headings
-    fine = course.length / (m - 1)
+    fine = course.spacing
     while high - low > 1:  # the narrowest window that does
         half = (low + high) // 2
         wide = np.pad(course.headings, half, mode="edge")
@@ -139,23 +171,19 @@ def _first(course: Course) -> Path:
     return path.moved(complex((course.points - points).mean()))
 
 
-def _nearer(path: Path, course: Course, places: FloatArray, softer: float) -> Path | None:
+def _nearer(path: Path, course: Course, feet: Feet, softer: float) -> Path | None:
     """One round: the best path as far as a linear view of it goes, bends within the bound, ends as held."""
     n = len(path.bends)
     # Distances from the course to the path, across the path, and from the path to the course, across the course.
-    own = np.arange(2 * n + 1) / 2
-    both = np.concatenate([places, own])
-    points, headings, _ = path.on(both)
-    feet, ways = _nearest(course, points[len(places) :], path)
-    turned = np.exp(-1j * np.concatenate([headings[: len(places)], ways]))
-    slopes = _slopes(path, both, points) * turned[:, None]
-    off = (np.concatenate([course.points, feet]) - points) * turned
-    near = course.length / (len(places) - 1) / 2
-    along = off.real.copy()
-    along[len(places) :] -= np.clip(along[len(places) :], -near, near)
+    places = np.concatenate([feet.on_path, feet.own])
+    points, headings = path.on(places)
+    back, ways = course.on(feet.on_course)
+    turned = np.exp(-1j * np.concatenate([headings[: len(course.points)], ways]))
+    slopes = _slopes(path, places, points) * turned[:, None]
+    off = (np.concatenate([course.points, back]) - points) * turned
     rows = np.concatenate([slopes.imag, ALONG * slopes.real])
-    rest = np.concatenate([off.imag, ALONG * along])
-    share = course.length / len(places)
+    rest = np.concatenate([off.imag, ALONG * off.real])
+    share = course.spacing
     square, pull = share * rows.T @ rows, share * rows.T @ rest
     bends = np.arange(4, 4 + n)
     square[bends, bends] += DAMPING + softer
@@ -164,7 +192,7 @@ def _nearer(path: Path, course: Course, places: FloatArray, softer: float) -> Pa
     square[4:, 4:] += even * change.T @ change
     pull[4:] -= even * change.T @ (change @ path.bends)
     conditions, missing = _conditions(path, course)
-    missing = missing * min(1.0, MOST_GAP / max(float(np.abs(missing).max(initial=0.0)), 1e-12))
+    missing = missing * min(1.0, MOST_GAP / max(float(np.sqrt(missing @ missing)), 1e-12))
     step = _within_bounds(square, pull, conditions, missing, path.bends)
     if step is None:
         return None
@@ -269,24 +297,21 @@ def _within_bounds(
     return step
 
 
-def _nearest(course: Course, points: ComplexArray, path: Path) -> tuple[ComplexArray, FloatArray]:
-    """For points at even places along a path: the course's point nearest to each, and its heading there.
-
-    Only among those about as far along, so that the sides of a tip are not taken for one another.
-    """
-    shares = np.linspace(0, 1, len(points))[:, None] - np.linspace(0, 1, len(course.points))[None]
-    apart = np.abs(points[:, None] - course.points[None])
-    apart[np.abs(shares) * course.length > BAND] = np.inf
-    nearest = np.argmin(apart, axis=1)
-    return course.points[nearest], course.headings[nearest]
-
-
 def _feet(path: Path, points: ComplexArray, places: FloatArray) -> FloatArray:
     """Places nearer to the feet of points on the path: one step of Newton's each, at most one arc."""
-    at, headings, bends = path.on(places)
+    at, headings = path.on(places)
     off = (points - at) * np.exp(-1j * headings)
+    # Bends between the middles of arcs, so that at a joint neither side counts more.
+    bends = np.interp(places, np.arange(len(path.bends)) + 0.5, path.bends)
     move = off.real / np.maximum(1 - bends * off.imag, 0.3) / path.step
     return np.clip(places + np.clip(move, -1.0, 1.0), 0.0, len(path.bends))
+
+
+def _feet_on(course: Course, points: ComplexArray, places: FloatArray) -> FloatArray:
+    """The same on the course, places counted in its points; at most one point on or back."""
+    at, headings = course.on(places)
+    move = ((points - at) * np.exp(-1j * headings)).real / course.spacing
+    return np.clip(places + np.clip(move, -1.0, 1.0), 0.0, len(course.points) - 1)
 
 
 def _chord(heading: FloatArray, bend: FloatArray, run: FloatArray | float) -> ComplexArray:
