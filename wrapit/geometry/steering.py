@@ -20,11 +20,14 @@ Held: TypeAlias = Literal["pinned", "placed", "free"]
 
 # Bends stay below one by what cubics add to an arc of 50 degrees (0.2 %), and a little.
 MOST_BEND: Final = 1 / 1.004
+# From here an arc counts as one at full lock.
+FULL_LOCK: Final = MOST_BEND - 1e-9
 # Length of the arcs that a path is made of: 34 degrees at full lock. Half of it gains 1 % of the deviation.
 STEP: Final = 0.6
 # Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
 ROUNDS: Final = 24
 SOFTER, EASING, MOST_GAP = 1.0, 0.3, 0.5
+STIFF, STIFFENING = 1e-5, 2.0
 SETTLED: Final = 2e-3
 # Ends and headings are met to this.
 CLOSED: Final = 1e-9
@@ -124,7 +127,7 @@ def steered(course: Course) -> Path | None:
     path = _first(course)
     feet = Feet.first(path, course)
     for number in range(ROUNDS):
-        moved = _nearer(path, course, feet, SOFTER * EASING**number)
+        moved = _nearer(path, course, feet, SOFTER * EASING**number, STIFF * STIFFENING**number)
         if moved is None:
             return None
         change = float(np.abs(moved.joints - path.joints).max())
@@ -171,7 +174,7 @@ def _first(course: Course) -> Path:
     return path.moved(complex((course.points - points).mean()))
 
 
-def _nearer(path: Path, course: Course, feet: Feet, softer: float) -> Path | None:
+def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float) -> Path | None:
     """One round: the best path as far as a linear view of it goes, bends within the bound, ends as held."""
     n = len(path.bends)
     # Distances from the course to the path, across the path, and from the path to the course, across the course.
@@ -186,7 +189,7 @@ def _nearer(path: Path, course: Course, feet: Feet, softer: float) -> Path | Non
     share = course.spacing
     square, pull = share * rows.T @ rows, share * rows.T @ rest
     bends = np.arange(4, 4 + n)
-    square[bends, bends] += DAMPING + softer
+    square[bends, bends] += DAMPING + softer + stiff
     change = np.diff(np.eye(n), axis=0)
     even = EVENNESS + softer
     square[4:, 4:] += even * change.T @ change
@@ -269,7 +272,7 @@ def _within_bounds(
 ) -> FloatArray | None:
     """Least squares with conditions and bounds, by sets of bends at full lock (primal and dual active sets)."""
     size, held = len(pull), len(missing)
-    lock = np.where(bends >= MOST_BEND, 1, np.where(bends <= -MOST_BEND, -1, 0))
+    lock = np.where(np.abs(bends) > FULL_LOCK, np.sign(bends), 0.0).astype(int)
     step = np.zeros(size)
     for _ in range(MOST_SETS):
         free = np.concatenate([np.ones(4, dtype=bool), lock == 0])
