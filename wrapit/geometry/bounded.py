@@ -21,7 +21,7 @@ CORNER_RAD: Final = 1e-6
 # Each cubic is looked at in so many places.
 PLACES: Final = 33
 # How far a window goes to both sides of what is tight, in radii: so much, and so much more a radian of turn.
-MARGIN, MARGIN_PER_RAD = 2.0, 1.0
+MARGIN, MARGIN_PER_RAD = 1.0, 1.0
 # A window in which no path is found is widened by this, so often.
 WIDER, TRIES = 1.4, 6
 # An end of a window this near (in radii) to a joint or to an end of the curve is put there: no short cubics.
@@ -304,7 +304,7 @@ def _cubics(path: Path) -> FloatArray:
         while locked and last + 1 < n and abs(path.bends[last + 1] - path.bends[first]) < 1e-9:
             last += 1
         run = last + 1 - first
-        count = math.ceil(run * path.step * abs(path.bends[first]) / ARC_RAD - 1e-9) if run > 1 else 1
+        count = max(1, math.ceil(run * path.step * abs(path.bends[first]) / ARC_RAD - 1e-9))
         cuts += [first + run * (k + 1) / count for k in range(count)]
         first = last + 1
     places = np.array(cuts)

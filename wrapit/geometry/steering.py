@@ -22,13 +22,13 @@ Held: TypeAlias = Literal["pinned", "placed", "free"]
 MOST_BEND: Final = 1 / 1.004
 # From here an arc counts as one at full lock.
 FULL_LOCK: Final = MOST_BEND - 1e-9
-# Length of the arcs that a path is made of: 34 degrees at full lock. Half of it gains 1 % of the deviation.
-STEP: Final = 0.6
+# Length of the arcs that a path is made of: 40 degrees at full lock. Half of it gains 1 % of the deviation.
+STEP: Final = 0.7
 # Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
 ROUNDS: Final = 24
-SOFTER, EASING, MOST_GAP = 1.0, 0.3, 0.5
+SOFTER, EASING, MOST_GAP = 0.3, 0.2, 0.5
 STIFF, STIFFENING = 1e-5, 2.0
-SETTLED: Final = 2e-3
+SETTLED: Final = 5e-3
 # Ends and headings are met to this.
 CLOSED: Final = 1e-9
 CLOSING: Final = 8
@@ -140,16 +140,19 @@ def steered(course: Course) -> Path | None:
 def _closed(path: Path, course: Course) -> Path | None:
     """The path with its ends met exactly by the least change of bends, None if that takes too long."""
     n = len(path.bends)
-    # Where the path starts costs next to nothing, or its two ends would not be treated alike.
-    square = np.diag(np.r_[np.full(3, 1e-9), np.ones(n + 1)])
+    # Where the path starts costs next to nothing, or its two ends would not be treated alike; full lock stays.
+    locked = np.abs(path.bends) > FULL_LOCK
+    square = np.diag(np.concatenate([np.full(3, 1e-9), [1.0], np.where(locked, 1e6, 1.0)]))
     for _ in range(CLOSING):
-        conditions, missing = _conditions(path, course)
+        places = np.array([0, n // 2, n])
+        slopes = _slopes(path, places.astype(np.float64), path.joints[places])
+        conditions, missing = _conditions(path, course, slopes[[0, 2]])
         if np.abs(missing).max(initial=0.0) < CLOSED:
             return path
         step = _within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends)
         if step is None:
             return None
-        path = _stepped(path, step)
+        path = _stepped(path, step, slopes[1])
     return None
 
 
@@ -182,7 +185,8 @@ def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float)
     points, headings = path.on(places)
     back, ways = course.on(feet.on_course)
     turned = np.exp(-1j * np.concatenate([headings[: len(course.points)], ways]))
-    slopes = _slopes(path, places, points) * turned[:, None]
+    slopes_at = _slopes(path, places, points)
+    slopes = slopes_at * turned[:, None]
     off = (np.concatenate([course.points, back]) - points) * turned
     rows = np.concatenate([slopes.imag, ALONG * slopes.real])
     rest = np.concatenate([off.imag, ALONG * off.real])
@@ -194,15 +198,16 @@ def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float)
     even = EVENNESS + softer
     square[4:, 4:] += even * change.T @ change
     pull[4:] -= even * change.T @ (change @ path.bends)
-    conditions, missing = _conditions(path, course)
+    ends = slopes_at[[len(course.points), -1]]
+    conditions, missing = _conditions(path, course, ends)
     missing = missing * min(1.0, MOST_GAP / max(float(np.sqrt(missing @ missing)), 1e-12))
     step = _within_bounds(square, pull, conditions, missing, path.bends)
     if step is None:
         return None
-    return _stepped(path, step)
+    return _stepped(path, step, slopes_at[len(course.points) + n])
 
 
-def _stepped(path: Path, step: FloatArray) -> Path:
+def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray) -> Path:
     """The path after a step, cut down where it would turn too far.
 
     Moved by its middle, so that a path and the same path the other way move alike.
@@ -211,8 +216,7 @@ def _stepped(path: Path, step: FloatArray) -> Path:
     turns += (path.headings - path.heading) * (step[3] / path.step)
     step = step * min(1.0, MOST_TURN / max(float(np.abs(turns).max()), 1e-12), path.step / 3 / max(abs(step[3]), 1e-12))
     middle = len(path.bends) // 2
-    at = np.array([float(middle)])
-    place = path.joints[middle] + (_slopes(path, at, path.joints[middle : middle + 1]) @ step)[0]
+    place = path.joints[middle] + middle_slopes @ step
     turn = step[2] + path.step * step[4 : 4 + middle].sum() + (path.headings[middle] - path.heading) * (step[3] / path.step)
     bends = np.clip(path.bends + step[4:], -MOST_BEND, MOST_BEND)
     new = Path(0j, 0.0, bends, path.step + step[3])
@@ -227,23 +231,22 @@ def _slopes(path: Path, places: FloatArray, points: ComplexArray) -> ComplexArra
     number = np.arange(n)
     # What a bend turns turns about the end of its arc; inside the arc it grows with the length from its start.
     lever = _lever(path.headings[:-1], path.bends, np.full(n, step))
-    by_bend = 1j * (lever + step * (points[:, None] - path.joints[None, 1:]))
-    by_bend[number[None] >= arc[:, None]] = 0
+    slopes = np.empty((len(places), 4 + n), dtype=np.complex128)
+    by_bend = slopes[:, 4:]
+    np.multiply((1j * step) * points[:, None] + 1j * (lever - step * path.joints[1:]), number < arc[:, None], out=by_bend)
     run = (places - arc) * step
     by_bend[np.arange(len(places)), arc] = 1j * _lever(path.headings[arc], path.bends[arc], run)
-    slopes = np.empty((len(places), 4 + n), dtype=np.complex128)
     slopes[:, 0], slopes[:, 1] = 1, 1j
     slopes[:, 2] = 1j * (points - path.start)
     slopes[:, 3] = (points - path.start + by_bend @ path.bends) / step
-    slopes[:, 4:] = by_bend
     return slopes
 
 
-def _conditions(path: Path, course: Course) -> tuple[FloatArray, FloatArray]:
+def _conditions(path: Path, course: Course, slopes: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """What has to hold at the ends, as rows (c, 4 + n) and by how much it is missed (c,)."""
     n = len(path.bends)
     ends = path.joints[[0, n]]
-    first, last = _slopes(path, np.array([0.0, float(n)]), ends)
+    first, last = slopes
     turn_first, turn_last = np.zeros(4 + n), np.zeros(4 + n)
     turn_first[2] = turn_last[2] = 1
     turn_last[3] = path.bends.sum()
