@@ -12,7 +12,7 @@ import numpy as np
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.arrays import FloatArray, norms
 from wrapit.geometry.bezier import BezierChain, derivative, evaluate, joined, second_derivative
-from wrapit.geometry.steering import FULL_LOCK, STEP, ComplexArray, Course, Held, Path, steered
+from wrapit.geometry.steering import MOST_BEND, NEARLY, STEP, ComplexArray, Course, Held, Path, steered
 
 # A bend is tight from here, in shares of the bound: above what cubics make of an arc at MOST_BEND.
 TIGHT: Final = 1.003
@@ -300,8 +300,8 @@ def _cubics(path: Path) -> FloatArray:
     first = 0
     while first < n:
         last = first
-        locked = abs(path.bends[first]) > FULL_LOCK
-        while locked and last + 1 < n and abs(path.bends[last + 1] - path.bends[first]) < 1e-9:
+        locked = abs(path.bends[first]) > MOST_BEND - NEARLY
+        while locked and last + 1 < n and abs(path.bends[last + 1] - path.bends[first]) < NEARLY:
             last += 1
         run = last + 1 - first
         count = max(1, math.ceil(run * path.step * abs(path.bends[first]) / ARC_RAD - 1e-9))

@@ -21,7 +21,9 @@ Held: TypeAlias = Literal["pinned", "placed", "free"]
 # Bends stay below one by what cubics add to an arc of 50 degrees (0.2 %), and a little.
 MOST_BEND: Final = 1 / 1.004
 # From here an arc counts as one at full lock.
-FULL_LOCK: Final = MOST_BEND - 1e-9
+NEARLY: Final = 1e-9
+# Bound of the last step, which only meets the ends: without room its sets of arcs at full lock may go round.
+LAST_BEND: Final = 1 / 1.0022
 # Length of the arcs that a path is made of: 40 degrees at full lock. Half of it gains 1 % of the deviation.
 STEP: Final = 0.7
 # Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
@@ -39,6 +41,8 @@ DAMPING: Final = 1e-3
 EVENNESS: Final = 1e-4
 # Headings turn by no more than this (rad) in a round, beyond which a linear view of the path is worth little.
 MOST_TURN: Final = 0.7
+# Conditions yield by so much of what it takes to keep them: solvable even where all arcs are at full lock.
+YIELDING: Final = 1e-8
 # How often the set of arcs at full lock is mended in a round.
 MOST_SETS: Final = 12
 
@@ -141,7 +145,7 @@ def _closed(path: Path, course: Course) -> Path | None:
     """The path with its ends met exactly by the least change of bends, None if that takes too long."""
     n = len(path.bends)
     # Where the path starts costs next to nothing, or its two ends would not be treated alike; full lock stays.
-    locked = np.abs(path.bends) > FULL_LOCK
+    locked = np.abs(path.bends) > MOST_BEND - NEARLY
     square = np.diag(np.concatenate([np.full(3, 1e-9), [1.0], np.where(locked, 1e6, 1.0)]))
     for _ in range(CLOSING):
         places = np.array([0, n // 2, n])
@@ -149,10 +153,8 @@ def _closed(path: Path, course: Course) -> Path | None:
         conditions, missing = _conditions(path, course, slopes[[0, 2]])
         if np.abs(missing).max(initial=0.0) < CLOSED:
             return path
-        step = _within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends)
-        if step is None:
-            return None
-        path = _stepped(path, step, slopes[1])
+        step = _within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends, LAST_BEND)
+        path = _stepped(path, step, slopes[1], LAST_BEND)
     return None
 
 
@@ -201,13 +203,11 @@ def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float)
     ends = slopes_at[[len(course.points), -1]]
     conditions, missing = _conditions(path, course, ends)
     missing = missing * min(1.0, MOST_GAP / max(float(np.sqrt(missing @ missing)), 1e-12))
-    step = _within_bounds(square, pull, conditions, missing, path.bends)
-    if step is None:
-        return None
-    return _stepped(path, step, slopes_at[len(course.points) + n])
+    step = _within_bounds(square, pull, conditions, missing, path.bends, MOST_BEND)
+    return _stepped(path, step, slopes_at[len(course.points) + n], MOST_BEND)
 
 
-def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray) -> Path:
+def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray, most: float) -> Path:
     """The path after a step, cut down where it would turn too far.
 
     Moved by its middle, so that a path and the same path the other way move alike.
@@ -218,7 +218,7 @@ def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray) -> Path:
     middle = len(path.bends) // 2
     place = path.joints[middle] + middle_slopes @ step
     turn = step[2] + path.step * step[4 : 4 + middle].sum() + (path.headings[middle] - path.heading) * (step[3] / path.step)
-    bends = np.clip(path.bends + step[4:], -MOST_BEND, MOST_BEND)
+    bends = np.clip(path.bends + step[4:], -most, most)
     new = Path(0j, 0.0, bends, path.step + step[3])
     new = Path(0j, float(path.headings[middle] + turn - new.headings[middle]), bends, new.step)
     return new.moved(complex(place - new.joints[middle]))
@@ -271,31 +271,29 @@ def _conditions(path: Path, course: Course, slopes: ComplexArray) -> tuple[Float
 
 
 def _within_bounds(
-    square: FloatArray, pull: FloatArray, rows: FloatArray, missing: FloatArray, bends: FloatArray
-) -> FloatArray | None:
+    square: FloatArray, pull: FloatArray, rows: FloatArray, missing: FloatArray, bends: FloatArray, most: float
+) -> FloatArray:
     """Least squares with conditions and bounds, by sets of bends at full lock (primal and dual active sets)."""
     size, held = len(pull), len(missing)
-    lock = np.where(np.abs(bends) > FULL_LOCK, np.sign(bends), 0.0).astype(int)
+    lock = np.where(np.abs(bends) > most - NEARLY, np.sign(bends), 0.0).astype(int)
     step = np.zeros(size)
     for _ in range(MOST_SETS):
         free = np.concatenate([np.ones(4, dtype=bool), lock == 0])
         fixed = np.zeros(size)
-        fixed[4:] = np.where(lock != 0, lock * MOST_BEND - bends, 0.0)
+        fixed[4:] = np.where(lock != 0, lock * most - bends, 0.0)
         count = int(free.sum())
         system = np.zeros((count + held, count + held))
         system[:count, :count] = square[np.ix_(free, free)]
         system[:count, count:] = rows[:, free].T
         system[count:, :count] = rows[:, free]
+        system[range(count, count + held), range(count, count + held)] = -YIELDING
         right = np.concatenate([(pull - square @ fixed)[free], missing - rows @ fixed])
-        try:
-            solved = np.linalg.solve(system, right)
-        except np.linalg.LinAlgError:
-            return None
+        solved = np.linalg.solve(system, right)
         step = fixed.copy()
         step[free] = solved[:count]
         force = (pull - square @ step - rows.T @ solved[count:])[4:]
         bent = bends + step[4:]
-        new = np.where(lock == 0, np.where(bent > MOST_BEND, 1, np.where(bent < -MOST_BEND, -1, 0)), lock)
+        new = np.where(lock == 0, np.where(bent > most, 1, np.where(bent < -most, -1, 0)), lock)
         new = np.where((lock != 0) & (force * lock < 0), 0, new)
         if np.array_equal(new, lock):
             return step
