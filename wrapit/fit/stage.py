@@ -11,6 +11,7 @@ from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures, unchanged
 from wrapit.fit.model import Fitted
 from wrapit.fit.sketch import Sketch
+from wrapit.fit.smoothing import smoothed
 from wrapit.fit.wishes import without_dropped
 
 
@@ -25,7 +26,7 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
     first = faces_of(before)
     after = without_dropped(before, config)
     if config.fit != "off":
-        after = cleared(after, limits, config.fit, frozenset(config.keep))
+        after = smoothed(cleared(after, limits, config.fit, frozenset(config.keep)), limits)
     made, origins = (
         (drawing, tuple((segment.id,) for segment in drawing.segments))
         if unchanged(drawing, after)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -19,6 +19,8 @@ from wrapit.geometry.polyline import lengths
 
 # How finely lines are compared (mm).
 _STEP_MM: Final = 0.25
+# They are too near at this share of the room that they need: what is made to have room isn't made again.
+_NEARER: Final = 0.98
 # Lines that leave one node at a small angle are near one another at first: for so many rooms along them they
 # may be (three are 19 degrees).
 _PARTING: Final = 3.0
@@ -46,6 +48,7 @@ def zipped(sketch: Sketch, limits: Limits, worth: Mapping[int, float], keep: fro
     `worth` is that of lines; `keep` are segments of the original that stay.
     """
     density = {frozenset(sketch.lines[n].origin): worth[n] / sketch.lines[n].curve.length for n in worth}
+    sketch = _folded(sketch, limits)
     passed: set[tuple[frozenset[int], frozenset[int]]] = set()
     for _ in range(_MOST):
         found = _stretches(sketch, limits, density, keep)
@@ -57,6 +60,43 @@ def zipped(sketch: Sketch, limits: Limits, worth: Mapping[int, float], keep: fro
     return sketch
 
 
+def _folded(sketch: Sketch, limits: Limits) -> Sketch:
+    """Lines that come near themselves get a node half way: they are two that run along one another."""
+    way_mm = 2 * _PARTING * limits.room_mm
+    half: dict[int, list[float]] = {}
+    for one, at, other, other_at, _ in _near_places(sketch, limits.room_mm):
+        around = sketch.lines[one].curve.length - abs(at - other_at)
+        if (
+            one == other
+            and abs(at - other_at) > way_mm
+            and not (sketch.lines[one].is_ring and around < way_mm)
+        ):
+            half.setdefault(one, []).append((at + other_at) / 2)
+    for number, places in sorted(half.items()):
+        line, at_mm, node = sketch.lines[number], float(np.median(places)), max(sketch.nodes) + 1
+        points = {**sketch.nodes, node: piece(line.curve, 0.0, at_mm).end}
+        names = {0.0: line.start, at_mm: node, line.curve.length: line.end}
+        sketch = sketch.changed((number,), _cut(sketch, number, names, points), {node: points[node]})
+    return sketch
+
+
+def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, int, float, float]]:
+    """Places on lines that are nearer than they have room: line and mm along it, twice, and how far apart."""
+    from scipy.spatial import cKDTree
+
+    numbers = sorted(sketch.lines)
+    points = [sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers]
+    every = np.concatenate(points)
+    owner = np.repeat(numbers, [len(each) for each in points])
+    at = np.concatenate([lengths(each) for each in points])
+    pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
+    far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > _PARTING * room_mm
+    pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
+    apart = np.hypot(*(every[pairs[:, 0]] - every[pairs[:, 1]]).T)
+    for (i, j), gap in zip(pairs.tolist(), apart.tolist(), strict=True):
+        yield int(owner[i]), float(at[i]), int(owner[j]), float(at[j]), gap
+
+
 def _names(sketch: Sketch, stretch: Stretch) -> tuple[frozenset[int], frozenset[int]]:
     return sketch.lines[stretch.line].origin, sketch.lines[stretch.other].origin
 
@@ -65,23 +105,11 @@ def _stretches(
     sketch: Sketch, limits: Limits, density: Mapping[frozenset[int], float], keep: frozenset[int]
 ) -> list[Stretch]:
     """Where lines run along others, the longest stretch first; the line is the lesser of the two."""
-    from scipy.spatial import cKDTree
-
     room_mm = limits.room_mm
-    numbers = sorted(sketch.lines)
-    points = {n: sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers}
-    along = {n: lengths(points[n]) for n in numbers}
-    every = np.concatenate([points[n] for n in numbers])
-    owner = np.repeat(numbers, [len(points[n]) for n in numbers])
-    at = np.concatenate([along[n] for n in numbers])
-    pairs = cKDTree(every).query_pairs(0.98 * room_mm, output_type="ndarray")
-    pairs = pairs[owner[pairs[:, 0]] != owner[pairs[:, 1]]]
     near: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
-    apart = np.hypot(*(every[pairs[:, 0]] - every[pairs[:, 1]]).T)
-    for (i, j), gap in zip(pairs.tolist(), apart.tolist(), strict=True):
-        one, other = int(owner[i]), int(owner[j])
-        if not _part_there(sketch, one, float(at[i]), other, float(at[j]), _PARTING * room_mm):
-            near.setdefault((one, other), []).append((float(at[i]), float(at[j]), gap))
+    for one, at, other, other_at, gap in _near_places(sketch, room_mm):
+        if one != other and not _part_there(sketch, one, at, other, other_at, _PARTING * room_mm):
+            near.setdefault((one, other), []).append((at, other_at, gap))
     found = []
     for (one, other), places in sorted(near.items()):
         table = np.array(places)
