@@ -24,6 +24,8 @@ PLACES: Final = 33
 MARGIN, MARGIN_PER_RAD = 1.0, 1.0
 # A window in which no path is found is widened by this, so often.
 WIDER, TRIES = 1.4, 6
+# A path that strays farther than this (in radii) is compared with that of a wider window.
+FAR: Final = 1.0
 # An end of a window this near (in radii) to a joint or to an end of the curve is put there: no short cubics.
 SNAP: Final = 0.3
 # One cubic for so much of an arc: its bends are within 0.2 % of the arc's.
@@ -47,32 +49,40 @@ def bounded(
     """The curve with each tight place replaced by the nearest path of that least radius; None if there is none.
 
     An end that is pinned keeps its place and direction, one that is placed its place; a free one may move. A
-    closed curve goes on smoothly over its start, which `start` holds; `end` then means nothing. A curve that
-    is gentle already is returned itself.
+    closed curve goes on smoothly over its start, which `start` holds (its direction only where there is no
+    corner); `end` then means nothing. A curve that is gentle already is returned itself. ValueError for a closed
+    curve with a gap.
     """
+    if closed and not np.array_equal(curve.start, curve.end):
+        raise ValueError("a closed curve ends where it starts")
     work = _Work(curve, radius, start, end, closed)
     tight = work.tight()
     if not tight:
         return Bounded(curve, 0.0, ())
     wide = np.ones(len(tight))
-    paths: dict[tuple[float, float], BezierChain | None] = {}
+    paths: dict[tuple[float, float], _New | None] = {}
+    best: Bounded | None = None
     for _ in range(TRIES):
         windows = work.windows(tight, wide)
         for window in windows:
             if window.ends not in paths:
                 paths[window.ends] = work.replaced(window)
-        failed = [window for window in windows if paths[window.ends] is None]
-        if not failed:
-            new = {window: path for window in windows if (path := paths[window.ends]) is not None}
+        new = {window: path for window in windows if (path := paths[window.ends]) is not None}
+        unhappy = [window for window in windows if window not in new]
+        if not unhappy:
             result = work.assembled(new)
-            if _crossings(result.curve, radius, closed) <= _crossings(curve, radius, closed):
-                return result
-            failed = windows
-        if all(window.length >= work.length for window in failed):
-            return None
-        for window in failed:
+            if _crossings(result.curve, radius) <= _crossings(curve, radius):
+                if best is not None or result.deviation <= FAR * radius:
+                    return result if best is None or result.deviation < best.deviation else best
+                best = result
+                unhappy = [window for window in windows if new[window].deviation > FAR * radius]
+            else:
+                unhappy = windows
+        if all(window.length >= work.length for window in unhappy):
+            break
+        for window in unhappy:
             wide[list(window.spans)] *= WIDER
-    return None
+    return best
 
 
 @dataclass(frozen=True)
@@ -102,6 +112,14 @@ class _Window:
 
 
 @dataclass(frozen=True, eq=False)
+class _New:
+    """What takes the place of a window, and how far the two lie apart at most."""
+
+    curve: BezierChain
+    deviation: float
+
+
+@dataclass(frozen=True, eq=False)
 class _Work:
     curve: BezierChain
     radius: float
@@ -118,6 +136,11 @@ class _Work:
     def length(self) -> float:
         return float(self.reach[-1])
 
+    @cached_property
+    def _seam_rad(self) -> float:
+        """Bend from the curve's end to its start."""
+        return float(_bends(self._headings(np.array([0.0, 1.0])))[-1])
+
     def tight(self) -> list[_Tight]:
         """Where the curve is too tight; places nearer to each other than SNAP radii count as one."""
         points = self.curve.points
@@ -125,7 +148,9 @@ class _Work:
         xy = evaluate(points, t)
         steps = norms(np.diff(xy, axis=1))
         share = np.cumsum(steps, axis=1) / np.maximum(steps.sum(axis=1, keepdims=True), 1e-300)
-        at = self.reach[:-1, None] + self.curve.lengths[:, None] * np.concatenate([np.zeros((len(points), 1)), share], 1)
+        at = self.reach[:-1, None] + self.curve.lengths[:, None] * np.concatenate(
+            [np.zeros((len(points), 1)), share], 1
+        )
         headings = self._headings(t)
         turns = np.abs(_wrapped(np.diff(headings, axis=1)))
         slack = TIGHT / self.radius
@@ -137,7 +162,7 @@ class _Work:
             places.append((at[i, j], at[i, j + 1], turns[i, j]))
         for i, j in zip(*np.nonzero(bends), strict=True):
             places.append((at[i, j], at[i, j], 0.0))
-        corners = np.abs(_wrapped(np.roll(headings[:, 0], -1) - headings[:, -1]))
+        corners = _bends(headings)
         for i in np.flatnonzero(corners > CORNER_RAD):
             if i < len(points) - 1 or self.closed:
                 places.append((self.reach[i + 1], self.reach[i + 1], corners[i]))
@@ -148,16 +173,28 @@ class _Work:
         found: list[_Window] = []
         for number, (span, factor) in enumerate(zip(tight, wide, strict=True)):
             margin = self.radius * factor * (MARGIN + MARGIN_PER_RAD * min(span.turn, math.pi))
-            window = _Window(self._snapped(span.start - margin, -1), self._snapped(span.end + margin, 1), (number,))
+            window = _Window(
+                self._snapped(span.start - margin, -1), self._snapped(span.end + margin, 1), (number,)
+            )
             found.append(window)
         found = _merged(sorted(found, key=lambda window: window.start))
         if self.closed:
             first, last = found[0], found[-1]
             over = last.end - self.length
             if len(found) > 1 and over >= first.start:
-                found = _merged([*found[1:-1], _Window(last.start, max(last.end, first.end + self.length), first.spans + last.spans)])
+                found = _merged(
+                    [
+                        *found[1:-1],
+                        _Window(last.start, max(last.end, first.end + self.length), first.spans + last.spans),
+                    ]
+                )
             found = [self._round(window) for window in found]
-        return found
+            over = max(window.end for window in found) > self.length
+            if over and self.start != "free":
+                # The start is held: a path through it has to go all round.
+                every = tuple(number for window in found for number in window.spans)
+                return [_Window(0.0, self.length, every)]
+        return sorted(found, key=lambda window: window.start)
 
     def _round(self, window: _Window) -> _Window:
         """The window of a closed curve, started on it, and all of it if hardly anything is left."""
@@ -177,11 +214,13 @@ class _Work:
         beyond = self.reach[(side * (self.reach - at) >= 0) & (side * (self.reach - at) <= near)]
         return float(beyond[0 if side > 0 else -1]) if len(beyond) else at
 
-    def replaced(self, window: _Window) -> BezierChain | None:
+    def replaced(self, window: _Window) -> _New | None:
         """The nearest path with the window's ends; None if there is none."""
         old = self._part(window.start, window.end)
         ring = self.closed and window.length >= self.length
         start = self.start if ring or (window.start <= 0 and not self.closed) else "pinned"
+        if ring and self._seam_rad > CORNER_RAD and start == "pinned":
+            start = "placed"
         end = self.end if window.end >= self.length and not self.closed else "pinned"
         course = _course(old, self.radius, start, "free" if ring else end, ring)
         path = steered(course)
@@ -200,38 +239,32 @@ class _Work:
             cubics[-1, 2] = cubics[-1, 3] - old.end_tangent * norms(cubics[-1, 3] - cubics[-1, 2])
         new = BezierChain(cubics)
         gentle = np.abs(_curvatures(cubics, np.linspace(0, 1, PLACES))).max() * self.radius <= TIGHT
-        return new if gentle and _crossings(new, self.radius, ring) <= _crossings(old, self.radius, ring) else None
+        if not gentle or _crossings(new, self.radius) > _crossings(old, self.radius):
+            return None
+        return _New(new, _apart(new, old, FINE * self.radius))
 
-    def assembled(self, new: dict[_Window, BezierChain]) -> Bounded:
+    def assembled(self, new: dict[_Window, _New]) -> Bounded:
         """What is gentle as it was, with the new paths between."""
-        import shapely
-
         parts: list[BezierChain] = []
-        at, tail, deviation = 0.0, None, 0.0
-        for window, path in new.items():
-            old = self._part(window.start, window.end).sampled(FINE * self.radius)
-            now = path.sampled(FINE * self.radius)
-            for one, other in ((old, now), (now, old)):
-                apart = shapely.distance(shapely.points(one), shapely.LineString(other))
-                deviation = max(deviation, float(apart.max()))
-            if window.end > self.length and window.length < self.length:
-                head, tail = _divided(path, self.curve.start)
-                at = window.end - self.length
-                parts.insert(0, tail)
-                last = (window.start, head)
-        spans = tuple(window.ends for window in new)
+        at, stop, last = 0.0, self.length, None
         for window, path in new.items():
             if window.end > self.length and window.length < self.length:
+                last, first = _divided(path.curve, self.curve.start)
+                at, stop = window.end - self.length, window.start
+                parts.append(first)
+        for window, path in new.items():
+            if window.start >= stop:
                 continue
-            if window.start > at + 1e-9:
+            if window.start > at:
                 parts.append(piece(self.curve, at, window.start))
-            parts.append(path)
+            parts.append(path.curve)
             at = window.end
-        stop = self.length if tail is None else last[0]
-        if stop > at + 1e-9:
+        if stop > at:
             parts.append(piece(self.curve, at, stop))
-        if tail is not None:
-            parts.append(last[1])
+        if last is not None:
+            parts.append(last)
+        deviation = max(path.deviation for path in new.values())
+        spans = tuple((float(window.start), float(window.end)) for window in new)
         return Bounded(_chained(parts), deviation, spans)
 
     def _part(self, start: float, end: float) -> BezierChain:
@@ -286,6 +319,9 @@ def _course(old: BezierChain, radius: float, start: Held, end: Held, closed: boo
     reach = np.concatenate([[0.0], np.cumsum(np.abs(chords))])
     length = float(reach[-1])
     middles = np.concatenate([[0.0], (reach[1:] + reach[:-1]) / 2, [length]])
+    if closed:  # with half of the corner over the seam at either end
+        seam = np.angle(ways[0] / ways[-1]) / 2
+        turned[0], turned[-1] = turned[0] - seam, turned[-1] + seam
     even = np.linspace(0.0, length, 4 * max(2, math.ceil(length / STEP / 2)) + 1)
     points = np.concatenate([[0], np.cumsum(chords)])
     placed: ComplexArray = np.interp(even, reach, points.real) + 1j * np.interp(even, reach, points.imag)
@@ -311,9 +347,16 @@ def _cubics(path: Path) -> FloatArray:
     points, headings = path.on(places)
     middle = path.bends[path.arc((places[1:] + places[:-1]) / 2)]
     turn = middle * np.diff(places) * path.step
-    handle = np.diff(places) * path.step / 3 * np.where(np.abs(turn) > 1e-6, 4 * np.tan(turn / 4) / np.where(turn == 0, 1, turn), 1.0)
+    handle = (
+        np.diff(places)
+        * path.step
+        / 3
+        * np.where(np.abs(turn) > 1e-6, 4 * np.tan(turn / 4) / np.where(turn == 0, 1, turn), 1.0)
+    )
     way = np.exp(1j * headings)
-    control = np.stack([points[:-1], points[:-1] + handle * way[:-1], points[1:] - handle * way[1:], points[1:]], axis=1)
+    control = np.stack(
+        [points[:-1], points[:-1] + handle * way[:-1], points[1:] - handle * way[1:], points[1:]], axis=1
+    )
     return np.stack([control.real, control.imag], axis=-1)
 
 
@@ -328,6 +371,11 @@ def _curvatures(points: FloatArray, t: FloatArray) -> FloatArray:
 def _wrapped(angles: FloatArray) -> FloatArray:
     """Angles between half a turn to the right and half a turn to the left."""
     return np.asarray((angles + math.pi) % math.tau - math.pi)
+
+
+def _bends(headings: FloatArray) -> FloatArray:
+    """By how much (n,) each cubic's last direction differs from the first of the next, or of the first one."""
+    return np.abs(_wrapped(np.roll(headings[:, 0], -1) - headings[:, -1]))
 
 
 def _divided(path: BezierChain, near: FloatArray) -> tuple[BezierChain, BezierChain]:
@@ -347,8 +395,18 @@ def _chained(parts: list[BezierChain]) -> BezierChain:
     return BezierChain(points)
 
 
-def _crossings(curve: BezierChain, radius: float, closed: bool) -> int:
-    """How often a curve crosses or touches itself; a closed one does not where it starts."""
+def _apart(one: BezierChain, other: BezierChain, step: float) -> float:
+    """How far apart two curves lie at most, looked at from both."""
+    import shapely
+
+    points, others = one.sampled(step), other.sampled(step)
+    there = shapely.distance(shapely.points(points), shapely.LineString(others))
+    back = shapely.distance(shapely.points(others), shapely.LineString(points))
+    return float(max(there.max(), back.max()))
+
+
+def _crossings(curve: BezierChain, radius: float) -> int:
+    """In how many parts a curve is cut where it crosses or touches itself; 0 if it does not."""
     from shapely import LineString, node
 
     points = curve.sampled(FINE * radius)

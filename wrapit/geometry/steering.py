@@ -64,7 +64,9 @@ class Path:
     @cached_property
     def joints(self) -> ComplexArray:
         """Ends of arcs, (n + 1,)."""
-        return self.start + np.concatenate([[0.0], np.cumsum(_chord(self.headings[:-1], self.bends, self.step))])
+        return self.start + np.concatenate(
+            [[0.0], np.cumsum(_chord(self.headings[:-1], self.bends, self.step))]
+        )
 
     def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray]:
         """Points and headings at places (m,), counted in arcs."""
@@ -92,6 +94,14 @@ class Course:
     start: Held
     end: Held
     closed: bool = False
+
+    def widened(self, count: int) -> FloatArray:
+        """Headings with so many before and after: of the other end where it is closed, otherwise straight on."""
+        if not self.closed:
+            return np.pad(self.headings, count, mode="edge")
+        steps = np.diff(self.headings)
+        around = np.take(steps, np.arange(-count, len(steps) + count), mode="wrap")
+        return self.headings[0] - around[:count].sum() + np.concatenate([[0.0], np.cumsum(around)])
 
     @property
     def spacing(self) -> float:
@@ -162,11 +172,13 @@ def _first(course: Course) -> Path:
     """The course's headings, evened out until they turn slowly enough, followed from end to end."""
     count = 2 * max(2, math.ceil(course.length / STEP / 2))
     step, m = course.length / count, len(course.points)
+    if course.closed:  # long enough to come round
+        step = max(step, abs(course.headings[-1] - course.headings[0]) / count / MOST_BEND)
     low, high, headings = 0, 4 * m, course.headings
     fine = course.spacing
     while high - low > 1:  # the narrowest window that does
         half = (low + high) // 2
-        wide = np.pad(course.headings, half, mode="edge")
+        wide = course.widened(half)
         total = np.concatenate([[0.0], np.cumsum(wide)])
         evened = (total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1)
         if np.abs(np.diff(evened)).max() <= fine:
@@ -214,10 +226,16 @@ def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray, most: fl
     """
     turns = step[2] + path.step * np.concatenate([[0.0], np.cumsum(step[4:])])
     turns += (path.headings - path.heading) * (step[3] / path.step)
-    step = step * min(1.0, MOST_TURN / max(float(np.abs(turns).max()), 1e-12), path.step / 3 / max(abs(step[3]), 1e-12))
+    step = step * min(
+        1.0, MOST_TURN / max(float(np.abs(turns).max()), 1e-12), path.step / 3 / max(abs(step[3]), 1e-12)
+    )
     middle = len(path.bends) // 2
     place = path.joints[middle] + middle_slopes @ step
-    turn = step[2] + path.step * step[4 : 4 + middle].sum() + (path.headings[middle] - path.heading) * (step[3] / path.step)
+    turn = (
+        step[2]
+        + path.step * step[4 : 4 + middle].sum()
+        + (path.headings[middle] - path.heading) * (step[3] / path.step)
+    )
     bends = np.clip(path.bends + step[4:], -most, most)
     new = Path(0j, 0.0, bends, path.step + step[3])
     new = Path(0j, float(path.headings[middle] + turn - new.headings[middle]), bends, new.step)
@@ -233,7 +251,11 @@ def _slopes(path: Path, places: FloatArray, points: ComplexArray) -> ComplexArra
     lever = _lever(path.headings[:-1], path.bends, np.full(n, step))
     slopes = np.empty((len(places), 4 + n), dtype=np.complex128)
     by_bend = slopes[:, 4:]
-    np.multiply((1j * step) * points[:, None] + 1j * (lever - step * path.joints[1:]), number < arc[:, None], out=by_bend)
+    np.multiply(
+        (1j * step) * points[:, None] + 1j * (lever - step * path.joints[1:]),
+        number < arc[:, None],
+        out=by_bend,
+    )
     run = (places - arc) * step
     by_bend[np.arange(len(places)), arc] = 1j * _lever(path.headings[arc], path.bends[arc], run)
     slopes[:, 0], slopes[:, 1] = 1, 1j
@@ -271,7 +293,12 @@ def _conditions(path: Path, course: Course, slopes: ComplexArray) -> tuple[Float
 
 
 def _within_bounds(
-    square: FloatArray, pull: FloatArray, rows: FloatArray, missing: FloatArray, bends: FloatArray, most: float
+    square: FloatArray,
+    pull: FloatArray,
+    rows: FloatArray,
+    missing: FloatArray,
+    bends: FloatArray,
+    most: float,
 ) -> FloatArray:
     """Least squares with conditions and bounds, by sets of bends at full lock (primal and dual active sets)."""
     size, held = len(pull), len(missing)
