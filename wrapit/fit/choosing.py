@@ -28,8 +28,9 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
     Lines that meet at a node of two are one. `keep` are segments of the original that stay. What can't be
     helped stays as it is.
     """
-    sketch = sketch.simplified()
+    sketch = sketch.simplified(limits.shortest_mm)
     sketch = zipped(sketch, limits, worths(sketch, faces_of(sketch), limits), keep)
+    sketch = _tidied(sketch.simplified(), limits, keep)
     refused: set[int] = set()
     for turn in range(_ROUNDS):
         sketch = sketch.simplified()
@@ -55,6 +56,26 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
         for some in _alike(choice.merged, pairs):
             sketch = _as_one(sketch, some, limits, refused)
     return sketch.simplified()
+
+
+def _tidied(sketch: Sketch, limits: Limits, keep: frozenset[int]) -> Sketch:
+    """Lines shorter than the wire is thick go at once: rings and stubs, and what is between two junctions."""
+    stay = set(keep)
+    while True:
+        specks = [
+            (line.curve.length, n)
+            for n, line in sketch.lines.items()
+            if line.curve.length < limits.diameter_mm and not line.origin & stay and len(sketch.lines) > 1
+        ]
+        if not specks:
+            return sketch
+        n = min(specks)[1]
+        line = sketch.lines[n]
+        if line.is_ring or any(len(sketch.arms[node]) == 1 for node in (line.start, line.end)):
+            sketch = sketch.changed((n,), told=(line.told("dropped", "shorter than the wire is thick"),))
+        else:
+            sketch = _as_one(sketch, (n,), limits, stay)
+        sketch = sketch.simplified()
 
 
 def short_lines(sketch: Sketch, limits: Limits) -> list[int]:

@@ -115,8 +115,8 @@ class Sketch:
         points = {node: point for node, point in {**self.nodes, **(nodes or {})}.items() if node in used}
         return Sketch(points, kept, (*self.removed, *told))
 
-    def simplified(self) -> Sketch:
-        """Two lines that meet at a node of their own are one; what is left of a ring starts anywhere."""
+    def simplified(self, short_mm: float = 0.0) -> Sketch:
+        """Two lines that meet at a node of their own are one; told where one of them is shorter than that."""
         sketch = self
         while True:
             pair = next(
@@ -128,7 +128,13 @@ class Sketch:
             first = sketch.lines[one] if at_end else sketch.lines[one].reversed()
             then = sketch.lines[other].reversed() if at_other_end else sketch.lines[other]
             both = Line(first.start, then.end, joined((first.curve, then.curve)), first.origin | then.origin)
-            sketch = sketch.changed((one, other), {min(one, other): both})
+            least = min((first, then), key=lambda line: line.curve.length)
+            told = (
+                [least.told("merged", "it goes on in one other line")]
+                if least.curve.length < short_mm
+                else []
+            )
+            sketch = sketch.changed((one, other), {min(one, other): both}, told=told)
 
     def drawing(self, original: Drawing) -> tuple[Drawing, tuple[tuple[int, ...], ...]]:
         """The drawing, numbered as drawings are, in the original's frame; and each segment's origins."""
