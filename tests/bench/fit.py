@@ -177,7 +177,8 @@ def _line(row: Row) -> str:
         f" left: spans {seen.spans:2d} corners {seen.corners:2d} narrow {seen.narrow(room):2d}"
         f" least {least} d short {seen.short(short_mm):2d} stubs {seen.short_stubs(short_mm):2d}"
         f" pieces {seen.pieces} crossings {seen.crossings}"
-        f" cost: outline {paid.outline_kept:.3f} out {paid.left_out:.3f} moved {paid.moved_mm:.3f} at most {paid.furthest_mm:.2f}"
+        f" cost: outline {paid.outline_kept:.3f} out {paid.left_out:.3f}"
+        f" moved {paid.moved_mm:.3f} at most {paid.furthest_mm:.2f}"
         f" {1e3 * row.seconds:5.0f} ms {1e3 * row.seconds / seen.segments:4.1f} each"
     )
 
