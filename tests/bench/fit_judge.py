@@ -32,6 +32,8 @@ TIGHT = 1.01
 CORNER_RAD = 0.05
 # How exactly the largest circle in a face is found.
 CIRCLE_MM = 0.01
+# Between two lines of one course chords enclose slivers of up to 1e-3 mm: no faces, but crossings.
+SLIVER_MM = 2e-3
 # Lines that meet may share chords this near to the junction where they do.
 MEETING_MM = 0.05
 # A place lies on the border of the drawing's area within rounding.
@@ -97,12 +99,13 @@ def fitness(drawing: Drawing, diameter_mm: float, radius_mm: float) -> Fitness:
         minlength=len(drawing.junctions),
     )
     lengths = [float(line.length) for line in lines]
+    rooms = [_room_mm(face) for face in _faces(lines)]
     free = [bool((ends[[s.start, s.end]] == 1).any()) for s in drawing.segments]
     return Fitness(
         segments=len(drawing.segments),
         spans=sum(_tight_spans(segment, radius_mm) for segment in drawing.segments),
         corners=sum(angle > CORNER_RAD for angle in joint_angles(drawing)),
-        faces_d=tuple(sorted(_room_mm(face) / diameter_mm for face in _faces(lines))),
+        faces_d=tuple(sorted(room / diameter_mm for room in rooms if room > SLIVER_MM)),
         lengths_mm=tuple(sorted(lengths)),
         stubs_mm=tuple(sorted(mm for mm, ends_freely in zip(lengths, free, strict=True) if ends_freely)),
         pieces=_pieces(drawing),

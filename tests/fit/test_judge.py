@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from tests.bench.fit_judge import fitness, joint_angles, price
 from wrapit.drawing.model import Drawing, Junction, Segment
 from wrapit.geometry import BezierChain, joined, straight
+from wrapit.geometry.bezier import split
 
 SQUARE = [(0, 0), (20, 0), (20, 20), (0, 20)]
 # Handles of a quarter circle as a cubic; its radius is within 3e-4 of right.
@@ -168,6 +169,13 @@ def test_a_line_that_crosses_itself_is_seen():
 
 def test_lines_that_lie_on_each_other_are_seen():
     assert fitness(drawn(line((0, 0), (10, 0)), line((5, 0), (15, 0))), 1.0, 1.0).crossings == 1
+
+
+def test_two_lines_of_one_course_cross_and_enclose_nothing():
+    whole = quarter((5, 0), (5, 5), (0, 5))
+    cut = joined(BezierChain(part) for part in split(whole.points, 0.37))
+    seen = fitness(drawn(whole, cut), 1.0, 1.0)
+    assert (seen.crossings, seen.faces_d) == (1, ())
 
 
 def test_pieces_and_free_ends_are_counted():
