@@ -34,7 +34,8 @@ from wrapit.wires.stage import draw_wires
 
 # What each level promises: room in a face in wire diameters, and the shortest segment in mm.
 PROMISED: Final = {"off": (2.0, 5.0), "gentle": (1.0, 3.0), "bold": (2.0, 5.0)}
-# What is to be reached: outline kept, length left out, wires of those that were, of drawings with so many.
+# What is to be reached: outline kept; length left out of drawings with few wires; wires of those that were of
+# drawings with many.
 OUTLINE: Final = 0.9
 LEFT_OUT: Final = 0.1
 WIRES: Final = 1 / 3
@@ -43,13 +44,17 @@ MANY_WIRES: Final = 12
 
 @dataclass(frozen=True)
 class Row:
-    """What came of one drawing at one size and thickness; `over_half` is None where no jig can be planned."""
+    """What came of one drawing at one size and thickness.
+
+    `before` are the wires of the drawing as it was read; `over_half` is None where no jig can be planned.
+    """
 
     name: str
     size: str
     level: str
     seen: Fitness
     paid: Price
+    before: int
     wires: int
     tight: int
     weak: int
@@ -110,13 +115,14 @@ def _rows(name: str, config: Config, solids: bool) -> Iterator[Row]:
     size = f"{config.size:.0f} mm {config.wire.gauge:.2f}"
     try:
         drawing, _ = trace(Path(config.drawing), config.tracing, config.size)
+        before = len(decompose(drawing, config.decomposition)[0].trails)
     except WrapItError as error:
         print(f"{name:32s} {size} {error}", flush=True)
         return
     for level in _chosen("FIT", "off,gentle,bold"):
         at_level = Config.model_validate(config.model_dump() | {"fit": level})
         try:
-            row = _row(name, size, drawing, at_level, solids)
+            row = _row(name, size, drawing, before, at_level, solids)
         except WrapItError as error:
             print(f"{name:32s} {size} {level:6s} exit {error.exit_code}: {error}", flush=True)
             continue
@@ -124,7 +130,7 @@ def _rows(name: str, config: Config, solids: bool) -> Iterator[Row]:
         yield row
 
 
-def _row(name: str, size: str, drawing: Drawing, config: Config, solids: bool) -> Row:
+def _row(name: str, size: str, drawing: Drawing, before: int, config: Config, solids: bool) -> Row:
     gauge_mm = config.wire.gauge
     began = time.process_time()
     fitted = make_fit(drawing, config)[0].drawing
@@ -139,6 +145,7 @@ def _row(name: str, size: str, drawing: Drawing, config: Config, solids: bool) -
         level=config.fit,
         seen=fitness(fitted, gauge_mm, radius_mm),
         paid=price(drawing, fitted, gauge_mm),
+        before=before,
         wires=len(wires),
         tight=sum(finding.code == "tight-bend" for finding in said),
         weak=weak,
@@ -172,8 +179,8 @@ def _line(row: Row) -> str:
     off = "  no jig" if row.over_half is None else f"{row.over_half:8.3f}"
     least = f"{seen.faces_d[0]:4.1f}" if seen.faces_d else "   -"
     return (
-        f"{row.name:32s} {row.size} {row.level:6s} segments {seen.segments:3d} wires {row.wires:2d}"
-        f" findings: tight {row.tight:2d} weak {row.weak:2d} unsound {row.unsound} off{off}"
+        f"{row.name:32s} {row.size} {row.level:6s} segments {seen.segments:3d}"
+        f" wires {row.wires:2d} of {row.before:2d} findings: tight {row.tight:2d} weak {row.weak:2d} unsound {row.unsound} off{off}"
         f" left: spans {seen.spans:2d} corners {seen.corners:2d} narrow {seen.narrow(room):2d}"
         f" least {least} d short {seen.short(short_mm):2d} stubs {seen.short_stubs(short_mm):2d}"
         f" pieces {seen.pieces} crossings {seen.crossings}"
@@ -184,8 +191,10 @@ def _line(row: Row) -> str:
 
 
 def _print_table(rows: list[Row]) -> None:
-    """What the rows reach of the goals, by kind, level and size, and over all sizes."""
-    off = {(row.name, row.size): row.wires for row in rows if row.level == "off"}
+    """What the rows reach of the goals, by kind, level and size, and over all sizes.
+
+    Length left out is that of drawings with few wires, wires/off that of drawings with many.
+    """
     print(
         f"\n{'':38s}    n makeable untight  fits  outline  ≥ 90 %  out median  ≤ 10 %  wires/off  ≤ 1/3"
         "  over .5  narrow  short  slowest"
@@ -196,25 +205,25 @@ def _print_table(rows: list[Row]) -> None:
         groups.setdefault(f"{kind} {row.level:6s} {row.size}", []).append(row)
         groups.setdefault(f"{kind} {row.level:6s} all", []).append(row)
     for title, group in sorted(groups.items()):
-        print(f"{title:38s}{_summary(group, off)}")
+        print(f"{title:38s}{_summary(group)}")
 
 
-def _summary(rows: list[Row], off: dict[tuple[str, str], int]) -> str:
+def _summary(rows: list[Row]) -> str:
     """One line of the table: shares of the drawings, and medians."""
 
     def share(reached: Sequence[bool]) -> str:
         return f"{np.mean(reached):7.2f}" if reached else "      -"
 
-    kept, out = [row.paid.outline_kept for row in rows], [row.paid.left_out for row in rows]
-    before = [(row.wires, off.get((row.name, row.size), 0)) for row in rows]
-    fewer = [wires / count for wires, count in before if count >= MANY_WIRES]
+    kept = [row.paid.outline_kept for row in rows]
+    out = [row.paid.left_out for row in rows if row.before < MANY_WIRES]
+    fewer = [row.wires / row.before for row in rows if row.before >= MANY_WIRES]
     half = [row.over_half for row in rows if row.over_half is not None]
     room, short_mm = PROMISED[rows[0].level]
     return (
         f"{len(rows):5d}  {share([row.makeable for row in rows])}"
         f"{share([row.untight for row in rows])}{share([row.fits for row in rows])}"
         f"  {np.mean(kept):7.3f} {share([each >= OUTLINE for each in kept])}"
-        f"  {np.median(out):10.3f} {share([each <= LEFT_OUT for each in out])}"
+        f"  {f'{np.median(out):10.3f}' if out else '         -'} {share([each <= LEFT_OUT for each in out])}"
         f"  {f'{np.median(fewer):9.2f}' if fewer else '        -'}{share([each <= WIRES for each in fewer])}"
         f"  {f'{np.mean(half):7.3f}' if half else '      -'}"
         f"  {np.mean([row.seen.narrow(room) for row in rows]):6.1f}"
