@@ -1,15 +1,16 @@
 """Drawings made fit for wire: how fit they are, what that cost by a judge of its own, what wires they give.
 
-Run as `python -m tests.bench fit [names] [--solids]`: the corpus's clean drawings, and public clipart
-(OpenMoji, CC BY-SA 4.0), a folder named in $WRAPIT_CLIPART; names are of drawings, or `corpus` or `clipart`.
-$WRAPIT_BENCH_SIZES (30,40,50,60), $WRAPIT_BENCH_GAUGES (18,22) and $WRAPIT_BENCH_FIT (off,gentle,bold) choose
-fewer. `--solids` makes the wires' solids too, by the kernel: minutes more. In the table `untight` is no
-tight-bend finding and no such stretch within a segment; `fits` asks for rounded corners, and room in each
-face, too.
+Run as `python -m tests.bench fit [names] [--solids | --quick]`: the corpus's clean drawings, and public
+clipart (OpenMoji, CC BY-SA 4.0), a folder named in $WRAPIT_CLIPART; names are of drawings, or `corpus` or
+`clipart`. $WRAPIT_BENCH_SIZES (30,40,50,60), $WRAPIT_BENCH_GAUGES (18,22) and $WRAPIT_BENCH_FIT
+(off,gentle,bold) choose fewer. `--solids` makes the wires' solids too, by the kernel: minutes more; `--quick`
+plans no jig, so that weak turns and what lies off stay unknown. In the table `untight` is no tight-bend
+finding and no such stretch within a segment; `fits` asks for rounded corners, and room in each face, too.
 """
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -46,7 +47,8 @@ MANY_WIRES: Final = 12
 class Row:
     """What came of one drawing at one size and thickness.
 
-    `before` are the wires of the drawing as it was read; `over_half` is None where no jig can be planned.
+    `before` are the wires of the drawing as it was read; `over_half` is None where no jig can be planned,
+    not a number where none was asked for.
     """
 
     name: str
@@ -80,7 +82,7 @@ class Row:
 
 def main(words: Sequence[str]) -> None:
     """A line for each build, and a table by level and size."""
-    names, solids = [word for word in words if word != "--solids"], "--solids" in words
+    names = [word for word in words if word not in ("--solids", "--quick")]
     rows: list[Row] = []
     for kind, picture, tracing in _pictures():
         if names and picture.stem not in names and kind not in names:
@@ -89,7 +91,7 @@ def main(words: Sequence[str]) -> None:
             for gauge in _chosen("GAUGES", "18,22"):
                 settings = {"drawing": str(picture), "size": f"{size_mm} mm", "tracing": tracing}
                 wire = {"wire": {"gauge": f"{gauge} AWG"}}
-                rows += _rows(f"{kind} {picture.stem}", Config.model_validate(settings | wire), solids)
+                rows += _rows(f"{kind} {picture.stem}", Config.model_validate(settings | wire), words)
     _print_table(rows)
 
 
@@ -110,7 +112,7 @@ def _pictures() -> Iterator[tuple[str, Path, dict[str, Any]]]:
         print("no clipart here; set WRAPIT_CLIPART")
 
 
-def _rows(name: str, config: Config, solids: bool) -> Iterator[Row]:
+def _rows(name: str, config: Config, words: Sequence[str]) -> Iterator[Row]:
     """A row for each level; none where the drawing is refused, or cannot be made fit."""
     size = f"{config.size:.0f} mm {config.wire.gauge:.2f}"
     try:
@@ -122,7 +124,7 @@ def _rows(name: str, config: Config, solids: bool) -> Iterator[Row]:
     for level in _chosen("FIT", "off,gentle,bold"):
         at_level = Config.model_validate(config.model_dump() | {"fit": level})
         try:
-            row = _row(name, size, drawing, before, at_level, solids)
+            row = _row(name, size, drawing, before, at_level, words)
         except WrapItError as error:
             print(f"{name:32s} {size} {level:6s} exit {error.exit_code}: {error}", flush=True)
             continue
@@ -130,14 +132,14 @@ def _rows(name: str, config: Config, solids: bool) -> Iterator[Row]:
         yield row
 
 
-def _row(name: str, size: str, drawing: Drawing, before: int, config: Config, solids: bool) -> Row:
+def _row(name: str, size: str, drawing: Drawing, before: int, config: Config, words: Sequence[str]) -> Row:
     gauge_mm = config.wire.gauge
     began = time.process_time()
     fitted = make_fit(drawing, config)[0].drawing
     seconds = time.process_time() - began
     solution, _ = decompose(fitted, config.decomposition)
     wires, said = draw_wires(solution, config)
-    weak, over_half = _planned(name, wires, config)
+    weak, over_half = (0, math.nan) if "--quick" in words else _planned(name, wires, config)
     radius_mm = min_inner_bend_radius_mm(gauge_mm, config.wire.temper) + gauge_mm / 2
     return Row(
         name=name,
@@ -149,7 +151,7 @@ def _row(name: str, size: str, drawing: Drawing, before: int, config: Config, so
         wires=len(wires),
         tight=sum(finding.code == "tight-bend" for finding in said),
         weak=weak,
-        unsound=_unsound(wires) if solids else 0,
+        unsound=_unsound(wires) if "--solids" in words else 0,
         over_half=over_half,
         seconds=seconds,
     )
@@ -180,7 +182,8 @@ def _line(row: Row) -> str:
     least = f"{seen.faces_d[0]:4.1f}" if seen.faces_d else "   -"
     return (
         f"{row.name:32s} {row.size} {row.level:6s} segments {seen.segments:3d}"
-        f" wires {row.wires:2d} of {row.before:2d} findings: tight {row.tight:2d} weak {row.weak:2d} unsound {row.unsound} off{off}"
+        f" wires {row.wires:2d} of {row.before:2d} findings: tight {row.tight:2d}"
+        f" weak {row.weak:2d} unsound {row.unsound} off{off}"
         f" left: spans {seen.spans:2d} corners {seen.corners:2d} narrow {seen.narrow(room):2d}"
         f" least {least} d short {seen.short(short_mm):2d} stubs {seen.short_stubs(short_mm):2d}"
         f" pieces {seen.pieces} crossings {seen.crossings}"
@@ -217,7 +220,7 @@ def _summary(rows: list[Row]) -> str:
     kept = [row.paid.outline_kept for row in rows]
     out = [row.paid.left_out for row in rows if row.before < MANY_WIRES]
     fewer = [row.wires / row.before for row in rows if row.before >= MANY_WIRES]
-    half = [row.over_half for row in rows if row.over_half is not None]
+    half = [row.over_half for row in rows if row.over_half is not None and not math.isnan(row.over_half)]
     room, short_mm = PROMISED[rows[0].level]
     return (
         f"{len(rows):5d}  {share([row.makeable for row in rows])}"
