@@ -133,7 +133,7 @@ def led(curve: BezierChain, start: FloatArray, end: FloatArray, blur_mm: float) 
 
 def _fading(along: FloatArray, shift: FloatArray) -> FloatArray:
     """What share of a shift at length 0 a place at some length follows: straight lines stay straight."""
-    size, whole = float(np.hypot(*shift)), float(along.max())
+    size, whole = float(np.hypot(*shift)), max(float(along.max()), 1e-12)
     if whole <= _WHOLE * size:
         return np.asarray(1 - along / whole)
     share = np.clip(1 - along / max(_REACH * size, 1e-9), 0, 1)
@@ -199,19 +199,26 @@ def _runs_beside(sketch: Sketch, number: int) -> bool:
 
 
 def is_planar(sketch: Sketch, lines: Mapping[int, Line], before: Sketch) -> bool:
-    """Whether lines that are new since `before` cross neither themselves nor any line but at their nodes."""
+    """Whether lines that are new since `before` cross neither themselves nor any line but at their nodes.
+
+    What crossed before may cross still: not every drawing that is read is planar to the last micron.
+    """
     numbers, tree = before.places
     for number, line in lines.items():
-        if not line.shape.is_simple:
+        if not line.shape.is_simple and (number not in before.lines or before.lines[number].shape.is_simple):
             return False
         near = {numbers[index] for index in tree.query(line.shape).tolist()} | set(lines)
         if any(
-            _meet_elsewhere(sketch, number, other)
+            _meet_elsewhere(sketch, number, other) and not _met_before(before, number, other)
             for other in sorted(near)
             if other != number and other in sketch.lines
         ):
             return False
     return True
+
+
+def _met_before(before: Sketch, one: int, other: int) -> bool:
+    return one in before.lines and other in before.lines and _meet_elsewhere(before, one, other)
 
 
 def _meet_elsewhere(sketch: Sketch, one: int, other: int) -> bool:
