@@ -186,7 +186,7 @@ def test_a_cubic_that_turns_back_within_itself(cubic: FloatArray, radius: float)
 
 
 @pytest.mark.parametrize(
-    ("between_deg", "most"), [(150, 0.1), (120, 0.15), (90, 0.3), (60, 0.6), (30, 0.75), (10, 1.0)]
+    ("between_deg", "most"), [(150, 0.1), (120, 0.15), (90, 0.3), (60, 0.6), (30, 0.75), (10, 1.0), (1, 1.05)]
 )
 @pytest.mark.parametrize("radius", [0.7, 3.0])
 def test_a_corner_between_long_sides_keeps_near(between_deg: float, most: float, radius: float) -> None:

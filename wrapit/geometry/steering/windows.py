@@ -11,6 +11,8 @@ from wrapit.geometry.steering.tight import Tight
 
 # How far a window goes to both sides of what is tight, in radii: so much, and so much more a radian of turn.
 MARGIN, MARGIN_PER_RAD = 1.0, 1.0
+# Turns beyond this count no more: with more room than 3.4 radii the sides of a tip of 3° dip into each other.
+MOST_COUNTED_RAD: Final = 2.4
 # An end of a window this near (in radii) to a joint or to an end of the curve is put there: no short cubics.
 SNAP: Final = 0.3
 
@@ -58,7 +60,7 @@ class Windows:
         """Tight places with room to both sides, so many times the usual (n,); those that meet as one."""
         found: list[Window] = []
         for number, (place, factor) in enumerate(zip(tight, wide, strict=True)):
-            margin = self.radius * factor * (MARGIN + MARGIN_PER_RAD * min(place.turn, math.pi))
+            margin = self.radius * factor * (MARGIN + MARGIN_PER_RAD * min(place.turn, MOST_COUNTED_RAD))
             start, end = self._snapped(place.start - margin, -1), self._snapped(place.end + margin, 1)
             found.append(Window(start, end, (number,)))
         found = _merged(sorted(found, key=lambda window: window.start))
