@@ -1,38 +1,36 @@
-"""The path nearest to given points whose curvature stays within a bound: a car's, whose wheels turn only so far.
-
-All in units of the least radius, points as complex numbers.
-"""
+"""The path nearest to a course, by Gauss and Newton's method with bounds."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Final, Literal, TypeAlias
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wrapit.geometry.arrays import FloatArray
-
-ComplexArray: TypeAlias = NDArray[np.complex128]
-Held: TypeAlias = Literal["pinned", "placed", "free"]
+from wrapit.geometry.steering.locks import NEARLY, within_bounds
+from wrapit.geometry.steering.paths import ComplexArray, Course, Path, slopes_at
 
 # Bends stay below one by what cubics add to an arc of 50 degrees (0.2 %), and a little.
 MOST_BEND: Final = 1 / 1.004
-# From here an arc counts as one at full lock.
-NEARLY: Final = 1e-9
-# Bound of the last step, which only meets the ends: without room its sets of arcs at full lock may go round.
+# Bound of the last step, which only meets the ends: it needs a little room.
 LAST_BEND: Final = 1 / 1.0022
 # Length of the arcs that a path is made of: 40 degrees at full lock. Half of it gains 1 % of the deviation.
 STEP: Final = 0.7
-# Rounds of Gauss and Newton: most windows move by less than SETTLED in a round after 6 to 12.
+# Rounds of Gauss and Newton, until no joint moves by more than SETTLED (radii): 6 on average. The last step
+# meets the ends exactly, and what another round would gain is less than the steps of the arcs cost.
 ROUNDS: Final = 24
-SOFTER, EASING, MOST_GAP = 0.3, 0.2, 0.5
-STIFF, STIFFENING = 1e-5, 2.0
 SETTLED: Final = 5e-3
+# Bends change little and evenly at first, then freely: without, 2 in 200 curves went astray.
+SOFTER, EASING = 0.3, 0.2
+# Bends change ever less after some ten rounds: sharp tips would swing to and fro for good.
+STIFF, STIFFENING = 1e-5, 2.0
+# Ends are brought nearer by no more than this (radii) in a round.
+MOST_GAP: Final = 0.5
 # Ends and headings are met to this.
 CLOSED: Final = 1e-9
+# Within so many steps, mostly 2.
 CLOSING: Final = 8
 # Share of the distance along the path that counts beside the one square to it: keeps feet from sliding away.
 ALONG: Final = 0.5
@@ -41,83 +39,14 @@ DAMPING: Final = 1e-3
 EVENNESS: Final = 1e-4
 # Headings turn by no more than this (rad) in a round, beyond which a linear view of the path is worth little.
 MOST_TURN: Final = 0.7
-# Conditions yield by so much of what it takes to keep them: solvable even where all arcs are at full lock.
-YIELDING: Final = 1e-8
-# How often the set of arcs at full lock is mended in a round.
-MOST_SETS: Final = 12
-
-
-@dataclass(frozen=True, eq=False)
-class Path:
-    """Arcs of one length, each going on where and as the one before ends; `bends` (n,) are curvatures."""
-
-    start: complex
-    heading: float
-    bends: FloatArray
-    step: float
-
-    @cached_property
-    def headings(self) -> FloatArray:
-        """At the ends of arcs, (n + 1,)."""
-        return self.heading + self.step * np.concatenate([[0.0], np.cumsum(self.bends)])
-
-    @cached_property
-    def joints(self) -> ComplexArray:
-        """Ends of arcs, (n + 1,)."""
-        return self.start + np.concatenate(
-            [[0.0], np.cumsum(_chord(self.headings[:-1], self.bends, self.step))]
-        )
-
-    def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray]:
-        """Points and headings at places (m,), counted in arcs."""
-        arc = self.arc(places)
-        run = (places - arc) * self.step
-        bend, heading = self.bends[arc], self.headings[arc]
-        return self.joints[arc] + _chord(heading, bend, run), heading + bend * run
-
-    def arc(self, places: FloatArray) -> NDArray[np.int64]:
-        """Number of the arc that a place is on."""
-        return np.clip(places.astype(np.int64), 0, len(self.bends) - 1)
-
-    def moved(self, shift: complex) -> Path:
-        """The path elsewhere."""
-        return Path(self.start + shift, self.heading, self.bends, self.step)
-
-
-@dataclass(frozen=True, eq=False)
-class Course:
-    """What a path has to follow: points (m,) at even lengths, headings there (unwrapped), and its ends."""
-
-    points: ComplexArray
-    headings: FloatArray
-    length: float
-    start: Held
-    end: Held
-    closed: bool = False
-
-    def widened(self, count: int) -> FloatArray:
-        """Headings with so many before and after: of the other end where it is closed, otherwise straight on."""
-        if not self.closed:
-            return np.pad(self.headings, count, mode="edge")
-        steps = np.diff(self.headings)
-        around = np.take(steps, np.arange(-count, len(steps) + count), mode="wrap")
-        return self.headings[0] - around[:count].sum() + np.concatenate([[0.0], np.cumsum(around)])
-
-    @property
-    def spacing(self) -> float:
-        """Length between neighbouring points."""
-        return self.length / (len(self.points) - 1)
-
-    def on(self, places: FloatArray) -> tuple[ComplexArray, FloatArray]:
-        """Points and headings at places (m,), counted in points."""
-        number = np.arange(len(self.points))
-        x, y = (np.interp(places, number, part) for part in (self.points.real, self.points.imag))
-        return x + 1j * y, np.interp(places, number, self.headings)
 
 
 @dataclass(frozen=True, eq=False)
 class Feet:
-    """Which place of the path is nearest to each point of the course, and which of the course to its own places."""
+    """Which places of path and course are nearest to each other.
+
+    `on_path` belong to the course's points, `on_course` to the path's `own` joints and middles of arcs.
+    """
 
     own: FloatArray
     on_path: FloatArray
@@ -137,7 +66,7 @@ class Feet:
 
 
 def steered(course: Course) -> Path | None:
-    """The path nearest to a course in the least squares of the course's distances; None if no path is found."""
+    """The path nearest to a course in the least squares of distances both ways; None if none is found."""
     path = _first(course)
     feet = Feet.first(path, course)
     for number in range(ROUNDS):
@@ -154,16 +83,16 @@ def steered(course: Course) -> Path | None:
 def _closed(path: Path, course: Course) -> Path | None:
     """The path with its ends met exactly by the least change of bends, None if that takes too long."""
     n = len(path.bends)
-    # Where the path starts costs next to nothing, or its two ends would not be treated alike; full lock stays.
+    # Where it starts costs next to nothing, or its ends would not be treated alike; full lock stays.
     locked = np.abs(path.bends) > MOST_BEND - NEARLY
     square = np.diag(np.concatenate([np.full(3, 1e-9), [1.0], np.where(locked, 1e6, 1.0)]))
     for _ in range(CLOSING):
         places = np.array([0, n // 2, n])
-        slopes = _slopes(path, places.astype(np.float64), path.joints[places])
+        slopes = slopes_at(path, places.astype(np.float64), path.joints[places])
         conditions, missing = _conditions(path, course, slopes[[0, 2]])
         if np.abs(missing).max(initial=0.0) < CLOSED:
             return path
-        step = _within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends, LAST_BEND)
+        step = within_bounds(square, np.zeros(4 + n), conditions, missing, path.bends, LAST_BEND)
         path = _stepped(path, step, slopes[1], LAST_BEND)
     return None
 
@@ -194,13 +123,13 @@ def _first(course: Course) -> Path:
 def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float) -> Path | None:
     """One round: the best path as far as a linear view of it goes, bends within the bound, ends as held."""
     n = len(path.bends)
-    # Distances from the course to the path, across the path, and from the path to the course, across the course.
+    # From the course to the path, across the path; from the path to the course, across the course.
     places = np.concatenate([feet.on_path, feet.own])
     points, headings = path.on(places)
     back, ways = course.on(feet.on_course)
     turned = np.exp(-1j * np.concatenate([headings[: len(course.points)], ways]))
-    slopes_at = _slopes(path, places, points)
-    slopes = slopes_at * turned[:, None]
+    moving = slopes_at(path, places, points)
+    slopes = moving * turned[:, None]
     off = (np.concatenate([course.points, back]) - points) * turned
     rows = np.concatenate([slopes.imag, ALONG * slopes.real])
     rest = np.concatenate([off.imag, ALONG * off.real])
@@ -212,11 +141,11 @@ def _nearer(path: Path, course: Course, feet: Feet, softer: float, stiff: float)
     even = EVENNESS + softer
     square[4:, 4:] += even * change.T @ change
     pull[4:] -= even * change.T @ (change @ path.bends)
-    ends = slopes_at[[len(course.points), -1]]
+    ends = moving[[len(course.points), -1]]
     conditions, missing = _conditions(path, course, ends)
     missing = missing * min(1.0, MOST_GAP / max(float(np.sqrt(missing @ missing)), 1e-12))
-    step = _within_bounds(square, pull, conditions, missing, path.bends, MOST_BEND)
-    return _stepped(path, step, slopes_at[len(course.points) + n], MOST_BEND)
+    step = within_bounds(square, pull, conditions, missing, path.bends, MOST_BEND)
+    return _stepped(path, step, moving[len(course.points) + n], MOST_BEND)
 
 
 def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray, most: float) -> Path:
@@ -240,28 +169,6 @@ def _stepped(path: Path, step: FloatArray, middle_slopes: ComplexArray, most: fl
     new = Path(0j, 0.0, bends, path.step + step[3])
     new = Path(0j, float(path.headings[middle] + turn - new.headings[middle]), bends, new.step)
     return new.moved(complex(place - new.joints[middle]))
-
-
-def _slopes(path: Path, places: FloatArray, points: ComplexArray) -> ComplexArray:
-    """How points at places (m,) move with start (x, y), heading, step and each bend: (m, 4 + n)."""
-    n, step = len(path.bends), path.step
-    arc = path.arc(places)
-    number = np.arange(n)
-    # What a bend turns turns about the end of its arc; inside the arc it grows with the length from its start.
-    lever = _lever(path.headings[:-1], path.bends, np.full(n, step))
-    slopes = np.empty((len(places), 4 + n), dtype=np.complex128)
-    by_bend = slopes[:, 4:]
-    np.multiply(
-        (1j * step) * points[:, None] + 1j * (lever - step * path.joints[1:]),
-        number < arc[:, None],
-        out=by_bend,
-    )
-    run = (places - arc) * step
-    by_bend[np.arange(len(places)), arc] = 1j * _lever(path.headings[arc], path.bends[arc], run)
-    slopes[:, 0], slopes[:, 1] = 1, 1j
-    slopes[:, 2] = 1j * (points - path.start)
-    slopes[:, 3] = (points - path.start + by_bend @ path.bends) / step
-    return slopes
 
 
 def _conditions(path: Path, course: Course, slopes: ComplexArray) -> tuple[FloatArray, FloatArray]:
@@ -292,42 +199,6 @@ def _conditions(path: Path, course: Course, slopes: ComplexArray) -> tuple[Float
     return np.array(rows).reshape(-1, 4 + n), np.array(missing, dtype=np.float64)
 
 
-def _within_bounds(
-    square: FloatArray,
-    pull: FloatArray,
-    rows: FloatArray,
-    missing: FloatArray,
-    bends: FloatArray,
-    most: float,
-) -> FloatArray:
-    """Least squares with conditions and bounds, by sets of bends at full lock (primal and dual active sets)."""
-    size, held = len(pull), len(missing)
-    lock = np.where(np.abs(bends) > most - NEARLY, np.sign(bends), 0.0).astype(int)
-    step = np.zeros(size)
-    for _ in range(MOST_SETS):
-        free = np.concatenate([np.ones(4, dtype=bool), lock == 0])
-        fixed = np.zeros(size)
-        fixed[4:] = np.where(lock != 0, lock * most - bends, 0.0)
-        count = int(free.sum())
-        system = np.zeros((count + held, count + held))
-        system[:count, :count] = square[np.ix_(free, free)]
-        system[:count, count:] = rows[:, free].T
-        system[count:, :count] = rows[:, free]
-        system[range(count, count + held), range(count, count + held)] = -YIELDING
-        right = np.concatenate([(pull - square @ fixed)[free], missing - rows @ fixed])
-        solved = np.linalg.solve(system, right)
-        step = fixed.copy()
-        step[free] = solved[:count]
-        force = (pull - square @ step - rows.T @ solved[count:])[4:]
-        bent = bends + step[4:]
-        new = np.where(lock == 0, np.where(bent > most, 1, np.where(bent < -most, -1, 0)), lock)
-        new = np.where((lock != 0) & (force * lock < 0), 0, new)
-        if np.array_equal(new, lock):
-            return step
-        lock = new
-    return step
-
-
 def _feet(path: Path, points: ComplexArray, places: FloatArray) -> FloatArray:
     """Places nearer to the feet of points on the path: one step of Newton's each, at most one arc."""
     at, headings = path.on(places)
@@ -343,18 +214,3 @@ def _feet_on(course: Course, points: ComplexArray, places: FloatArray) -> FloatA
     at, headings = course.on(places)
     move = ((points - at) * np.exp(-1j * headings)).real / course.spacing
     return np.clip(places + np.clip(move, -1.0, 1.0), 0.0, len(course.points) - 1)
-
-
-def _chord(heading: FloatArray, bend: FloatArray, run: FloatArray | float) -> ComplexArray:
-    """From start to end of an arc."""
-    half = bend * run / 2
-    return np.asarray(run * np.sinc(half / math.pi) * np.exp(1j * (heading + half)))
-
-
-def _lever(heading: FloatArray, bend: FloatArray, run: FloatArray) -> ComplexArray:
-    """∫ s exp(i (heading + bend s)) ds along an arc, by its series about the middle (to 1e-7 for 1 rad)."""
-    half = bend * run / 2
-    square = half * half
-    across = run**3 * bend / 12 * (1 - square / 10 + square * square / 280)
-    along = run * run / 2 * np.sinc(half / math.pi)
-    return np.asarray(np.exp(1j * (heading + half)) * (along + 1j * across))
