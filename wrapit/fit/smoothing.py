@@ -11,7 +11,7 @@ from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bounded import Bounded, bounded
-from wrapit.geometry.steering import Held
+from wrapit.geometry.steering.paths import Held
 
 # How an end may be held where it can't be as firmly as it should.
 _LOOSER: Final[dict[Held, Held]] = {"pinned": "placed", "placed": "placed", "free": "free"}

@@ -17,8 +17,8 @@ from wrapit.fit.smoothing import smoothed
 from wrapit.fit.unmet import unmet
 from wrapit.fit.wishes import without_dropped
 
-# Wider bends may make a face smaller, or a line shorter: then it starts again. Drawings of the corpus take one
-# turn or two.
+# Wider bends may make a face smaller, or a line shorter: then it starts again. The corpus takes one turn or
+# two.
 _TURNS: Final = 4
 
 

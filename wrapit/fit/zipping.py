@@ -13,7 +13,7 @@ from wrapit.drawing.model import Removal
 from wrapit.fit.merging import is_planar, led
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Line, Sketch
-from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.polyline import lengths
 
@@ -21,6 +21,8 @@ from wrapit.geometry.polyline import lengths
 _STEP_MM: Final = 0.25
 # They are too near at this share of the room that they need: what is made to have room isn't made again.
 _NEARER: Final = 0.98
+# They run along one another where directions differ by less than 12 degrees (its sine); tips taper by more.
+_PARALLEL: Final = 0.21
 # Lines that leave one node at a small angle are near one another at first: for so many rooms along them they
 # may be (three are 19 degrees).
 _PARTING: Final = 3.0
@@ -81,7 +83,7 @@ def _folded(sketch: Sketch, limits: Limits) -> Sketch:
 
 
 def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, int, float, float]]:
-    """Places on lines that are nearer than they have room: line and mm along it, twice, and how far apart."""
+    """Places where lines run too near to one another: line and mm along it, twice, and how far apart."""
     from scipy.spatial import cKDTree
 
     numbers = sorted(sketch.lines)
@@ -92,6 +94,9 @@ def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, i
     pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
     far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > _PARTING * room_mm
     pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
+    along = np.concatenate([unit(np.gradient(each, axis=0)) for each in points])
+    first, second = along[pairs[:, 0]], along[pairs[:, 1]]
+    pairs = pairs[np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) < _PARALLEL]
     apart = np.hypot(*(every[pairs[:, 0]] - every[pairs[:, 1]]).T)
     for (i, j), gap in zip(pairs.tolist(), apart.tolist(), strict=True):
         yield int(owner[i]), float(at[i]), int(owner[j]), float(at[j]), gap
