@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.pipeline.folders import held
+from wrapit.cli.starting import write_proposal
 from wrapit.config import Config, load_config
 from wrapit.drawing.json_file import drawing_json, read_drawing
 from wrapit.drawing.model import Drawing
@@ -270,6 +271,18 @@ def test_a_drawing_of_no_usual_size_is_made_fit(
     proposal, found = propose_makeable(config.parent / "piece.svg")
     assert (proposal.fit, found) == ("", "tight"), "no fit where it doesn't help"
     assert "fit" not in proposal.text().replace("Made fit", "")
+
+
+def test_init_says_that_it_is_made_fit(
+    config: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(proposing, "held_share", lambda config, path: 1.0)
+    monkeypatch.setattr(proposing, "_too_tight", lambda config, path: 1.0 if config.fit != "off" else 2.0)
+    target = write_proposal(config.parent / "piece.svg", config.parent / "new.yaml")
+    assert load_config(target).fit == "gentle"
+    said = capsys.readouterr().err
+    assert "note: as it is drawn, no usual size would do, so the config says `fit: gentle`" in said
+    assert "warning: at every usual size" not in said
 
 
 def test_what_it_would_do_is_a_comment(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:

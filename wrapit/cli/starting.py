@@ -62,7 +62,7 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
         say(f"{finding.level}: {finding.where}: {finding.message}")
     remedy = f"see {pasted('check', argument(target))}"
     if proposal.fit:
-        say(f"note: {proposal.about_fit} (fit: {proposal.fit})")
+        say(f"note: as it is drawn, no usual size would do, so the config says `fit: {proposal.fit}`")
     if held == "unheld":
         say(f"warning: no usual size was found at which a jig holds it; {remedy}")
     if held == "tight":

@@ -152,7 +152,10 @@ def test_nor_where_it_is_made_fit(
     tmp_path: Path, recorder: Recorder, settings: tuple[str, ...], springback: str
 ) -> None:
     also = (f"jig.springback={springback}", "jig.post_bends=true", "decomposition.bridges=true")
-    build(CONFIGS / "leaf.yaml", tmp_path / "out", (*settings, *also), until="wires")
+    config = written_piece(tmp_path)
+    across = '<path d="M 35 20 C 25 25 15 15 5 20" fill="none" stroke="black"/></svg>'
+    (tmp_path / "piece.svg").write_text(PIECE.replace("</svg>", across))
+    build(config, tmp_path / "out", (*settings, *also), until="wires")
     assert recorder.undeclared() == {}
     assert {"fit", "drop"} <= recorder.read["fit"]
 
