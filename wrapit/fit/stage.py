@@ -5,11 +5,13 @@ from __future__ import annotations
 from wrapit.config import Config
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
+from wrapit.fit.choosing import cleared
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures, unchanged
 from wrapit.fit.model import Fitted
 from wrapit.fit.sketch import Sketch
+from wrapit.fit.smoothing import smoothed
 from wrapit.fit.wishes import without_dropped
 
 
@@ -23,6 +25,8 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
     limits = limits_of(config, "gentle" if config.fit == "off" else config.fit)
     first = faces_of(before)
     after = without_dropped(before, config)
+    if config.fit != "off":
+        after = smoothed(cleared(after, limits, config.fit, frozenset(config.keep)), limits)
     made, origins = (
         (drawing, tuple((segment.id,) for segment in drawing.segments))
         if unchanged(drawing, after)
