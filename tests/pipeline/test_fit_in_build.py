@@ -233,6 +233,25 @@ def test_what_does_not_help_is_not_offered(
     assert offer(load_config(config), tmp_path / "piece.svg") == ""
 
 
+@given(
+    st.lists(
+        st.builds(
+            Finding,
+            st.sampled_from(("note", "warning", "error")),
+            st.sampled_from(("tight-bend", "weak-turn", "small-wall", "weak-wire", "springback")),
+            st.integers(0, 9).map(str),
+            st.just("message"),
+        ),
+        max_size=8,
+    )
+)
+def test_what_asks_for_it(findings: list[Finding]) -> None:
+    asking = offering._asking(findings)
+    crowded = {each for each in findings if each.code in ("weak-turn", "small-wall") and each.level != "note"}
+    tight = {each for each in findings if each.code == "tight-bend" and each.level != "note"}
+    assert asking == (tight | crowded if len(crowded) >= 3 else tight)
+
+
 def test_a_piece_that_is_not_held_gets_the_offer(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shares = {"off": 0.1, "gentle": 0.2, "bold": 0.5}
     monkeypatch.setattr(remedies, "held_share", lambda config, path: shares[config.fit])

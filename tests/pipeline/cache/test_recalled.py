@@ -46,7 +46,6 @@ CHANGES: list[tuple[str, set[str]]] = [
     ("name=other", {PRINTED} | EXPORTS),
     ("keep=[0]", set()),
     ("fit=gentle", (ALL - {"trace"}) | {"fit"}),
-    ("beads=auto", (ALL - {"trace"}) | {"fit"}),
 ]
 KERNEL_FREE = {"guide", "views", SHEET} | DRAWN
 OUTPUTS = ["step", "stl", "dxf", "html"]

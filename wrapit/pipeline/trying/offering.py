@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -15,6 +16,9 @@ from wrapit.pipeline.work import Work
 
 # What a drawing of wider bends and fewer lines mends.
 _ASKING: Final = {"tight-bend", "wire-without-solid"}
+# Lines too near or too short for walls: one or two turns are bent by hand, several ask for another drawing.
+_CROWDED: Final = {"small-wall", "turn-without-wall", "weak-turn"}
+_SEVERAL: Final = 3
 # A smaller share of the lines that is left out reads as none.
 _NOTHING: Final = 0.005
 
@@ -33,7 +37,8 @@ def with_offers(work: Work) -> list[Finding]:
 
     It is for who reads them now: no file says it.
     """
-    if not any(_asks(each) for each in work.findings) or not bolder(work.config):
+    asking = _asking(work.findings)
+    if not asking or not bolder(work.config):
         return work.findings
     key = work.key("offer")
     made = work.remember(key, lambda: Outcome(blocks={"said": offer(work.config, work.drawing_path)}), None)
@@ -41,7 +46,9 @@ def with_offers(work: Work) -> list[Finding]:
     if not said:
         return work.findings
     return [
-        dataclasses.replace(each, remedy=f"{each.remedy}; {said}") if _asks(each) else each
+        dataclasses.replace(each, remedy=f"{each.remedy}; {said}" if each.remedy else said)
+        if each in asking
+        else each
         for each in work.findings
     ]
 
@@ -76,8 +83,12 @@ def gain_of(config: Config, path: Path, level: FitLevel) -> str:
     return _told(before, made)
 
 
-def _asks(finding: Finding) -> bool:
-    return finding.code in _ASKING and finding.level != "note"
+def _asking(findings: Sequence[Finding]) -> set[Finding]:
+    """Those that a fitted drawing may mend."""
+    told = {each for each in findings if each.level != "note"}
+    crowded = {each for each in told if each.code in _CROWDED}
+    tight = {each for each in told if each.code in _ASKING}
+    return tight | crowded if len(crowded) >= _SEVERAL else tight
 
 
 def _made(config: Config, path: Path) -> _Made | None:
