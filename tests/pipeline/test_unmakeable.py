@@ -55,7 +55,7 @@ def refused_piece(
 
 def test_each_remedy_is_tried_and_does(refused_piece: tuple[Path, str], tmp_path: Path) -> None:
     config, line = refused_piece
-    remedies = re.findall(r"with ([\w.]+): (\d+ \w+) they would hold (\d+)%", line)
+    remedies = re.findall(r"with ([\w.]+): (\d+ \w+|\w+) they would hold (\d+)%", line)
     assert remedies
     for number, (key, value, held) in enumerate(remedies):
         report = build(config, tmp_path / str(number), (f"{key}={value}",), until="jig").report
