@@ -78,3 +78,23 @@ def test_a_wire_is_drawn_as_thick_as_it_is(work: Work) -> None:
     assert [each["diameter_mm"] for each in shown] == [
         pytest.approx(wire.diameter_mm, abs=1e-3) for wire in work.wires
     ]
+
+
+def test_a_fitted_drawing_is_the_one_that_is_shown(tmp_path: Path) -> None:
+    folder: Path = with_piece(tmp_path)
+    seen = []
+    config = load_config(folder / "leaf.yaml", ["drop=[0]"])
+    work = Work(
+        config, folder / "leaf.svg", "wires", lambda stage: None, 0, after=lambda *told: seen.append(told)
+    )
+    run_stages(work, None)
+    assert work.fitted is not None
+    assert work.drawing is work.fitted.drawing
+    shown = shown_after("drawing", work)["shown"]["drawing"]
+    assert len(shown["segments"]) == len(work.fitted.original.segments) - 1 == len(work.fitted.origins)
+    assert "dropped" in {each["what"] for each in shown["removed"]}
+    drawn = {
+        number for wire in shown_after("wires", work)["shown"]["wires"] for number, _ in wire["segments"]
+    }
+    assert drawn == set(range(len(shown["segments"])))
+    assert [stage for stage, _ in seen] == ["drawing", "decomposition", "wires"]
