@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from wrapit.fit.model import Bead, Limits
 from wrapit.fit.sketch import Arm, Line, Sketch
 from wrapit.geometry import BezierChain, FloatArray, joined, straight
 from wrapit.geometry.disjoint_sets import Sets
-
-if TYPE_CHECKING:
-    import shapely
 
 # Largest circle inside over smallest circle round it: an oval of 4 : 3 still reads as a bead, a square (0.71)
 # or an eye's almond doesn't.
@@ -34,8 +31,8 @@ _ALIKE_MM = 0.1
 _ALIKE_ROUND = 0.03
 # A loop of more lines has more than two neighbours, or corners: no bead.
 _LINES = 3
-# A bead's hole is straight. Two lines that come from within 60° of opposite sides can be led through it; two that
-# pass beside it bend by no more than that.
+# A bead's hole is straight. Two lines that come from within 60° of opposite sides can be led through it; two
+# that pass beside it bend by no more than that.
 _STRAIGHT = np.cos(np.radians(60.0))
 # Wire beyond the last bead, so that the jig has room for the wire's start hole beside the bead's seat: hole
 # (wire + 0.5 mm, 2 mm at least), clearance of 0.2 mm and 0.5 mm of plate between.
@@ -60,7 +57,7 @@ def beaded(
     kept: Iterable[int] = (),
     places: Iterable[tuple[float, float]] = (),
 ) -> tuple[Sketch, tuple[Bead, ...]]:
-    """The sketch with small round loops gone, lines led on through their middles, and the beads in their places.
+    """The sketch without small round loops, lines led on through their middles; and the beads there.
 
     A bead's `segment` is the number of the line that runs through it. Segments of the original that are
     `kept` stay lines; a loop about one of `places`, where something was drawn that is no line, is no bead.
@@ -76,7 +73,7 @@ def beaded(
 
 
 def passing(at: FloatArray, curves: Mapping[int, BezierChain]) -> int:
-    """Which of the curves comes nearest to a place (2,); the first of several. Raises ValueError without any."""
+    """Which curve comes nearest to a place (2,), the first of several. Raises ValueError without any."""
     return min(
         curves, key=lambda number: (round(_distance_mm(curves[number].sampled(STEP_MM), at), 3), number)
     )
