@@ -4,7 +4,7 @@ For programs, each stage is one function, imported when it is first asked for:
 
 >>> import wrapit
 >>> wrapit.__all__
-['build', 'build_jigs', 'check', 'decompose', 'draw_wires', 'load_config', 'trace']
+['build', 'build_jigs', 'check', 'decompose', 'draw_wires', 'load_config', 'make_fit', 'trace']
 
 `wrapit.cad` hands jigs and wires to build123d and cadquery.
 """
@@ -14,10 +14,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from wrapit.face import build, build_jigs, check, decompose, draw_wires, load_config, trace
+    from wrapit.face import build, build_jigs, check, decompose, draw_wires, load_config, make_fit, trace
 
 __version__ = "0.1.0"
-__all__ = ["build", "build_jigs", "check", "decompose", "draw_wires", "load_config", "trace"]
+__all__ = ["build", "build_jigs", "check", "decompose", "draw_wires", "load_config", "make_fit", "trace"]
 
 
 def __getattr__(name: str) -> Any:

@@ -1,7 +1,8 @@
 """The stages for programs: paths may be texts, the config may be left out, what is heavy comes when needed.
 
 Each of `trace`, `decompose`, `draw_wires` and `build_jigs` takes what the one before returns first, and
-returns its model with its findings; `build` and `check` return the report, which holds them.
+returns its model with its findings; so does `make_fit`, whose drawing may take the place of the traced one.
+`build` and `check` return the report, which holds them.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
     from wrapit.errors import Finding
+    from wrapit.fit.model import Fitted
     from wrapit.jig.model import JigSet
     from wrapit.pipeline.build import Build
     from wrapit.pipeline.work import Stage
@@ -49,6 +51,17 @@ def trace(
 
     config = config if config is not None else _usual()
     return run(Path(path), config.tracing, _checked(size_mm) if size_mm is not None else config.size)
+
+
+def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, ...]]:
+    """The drawing as the config's wire can follow it (`Fitted.drawing`), as its `fit`, `keep`, `drop` and
+    `beads` say.
+
+    Raises ConfigError where `keep` or `drop` names no segment, or names one in both.
+    """
+    from wrapit.fit.stage import make_fit as run
+
+    return run(drawing, config)
 
 
 def decompose(drawing: Drawing, config: Config | None = None) -> tuple[Solution, tuple[Finding, ...]]:

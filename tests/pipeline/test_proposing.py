@@ -14,9 +14,9 @@ from wrapit.config import Config, load_config
 from wrapit.config.texts.presets import preset_names
 from wrapit.drawing.proposal import SIZES_MM, propose
 from wrapit.errors import ConfigError
-from wrapit.pipeline import proposing
-from wrapit.pipeline.proposing import propose_makeable
-from wrapit.pipeline.remedies import held_share
+from wrapit.pipeline.trying import proposing
+from wrapit.pipeline.trying.proposing import propose_makeable
+from wrapit.pipeline.trying.remedies import held_share
 
 
 def init(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:

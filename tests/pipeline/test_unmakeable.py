@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from wrapit.errors import Finding, UnheldError
 from wrapit.pipeline.build import Build, build, check
-from wrapit.pipeline.remedies import smallest_size
 from wrapit.pipeline.report import findings_list
 from wrapit.pipeline.summary import LEVELS, finding_lines
+from wrapit.pipeline.trying.remedies import smallest_size
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">{}</svg>'
 STROKE = '<path d="{}" fill="none" stroke="black"/>'

@@ -45,14 +45,14 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     Raises ConfigError where there is a file already or none can be written, and what `propose_makeable` does.
     """
     from wrapit.errors import ConfigError
-    from wrapit.pipeline.proposing import propose_makeable
     from wrapit.pipeline.textfile import write_whole
+    from wrapit.pipeline.trying.proposing import propose_makeable
 
     target = output if output is not None else drawing.with_suffix(".yaml") if drawing.name else drawing
     elsewhere = f"choose another file: {pasted('init', argument(drawing), '-o', 'FILE')}"
     if drawing.is_file():
         _refuse_taken(target, elsewhere)  # before anybody waits for a proposal
-    proposal, fit = propose_makeable(drawing, output.parent if output is not None else None, preset)
+    proposal, held = propose_makeable(drawing, output.parent if output is not None else None, preset)
     _refuse_taken(target, elsewhere)
     try:
         write_whole(target, proposal.text())
@@ -61,9 +61,11 @@ def write_proposal(drawing: Path, output: Path | None = None, preset: str = "") 
     for finding in proposal.findings:
         say(f"{finding.level}: {finding.where}: {finding.message}")
     remedy = f"see {pasted('check', argument(target))}"
-    if fit == "unheld":
+    if proposal.fit:
+        say(f"note: {proposal.about_fit} (fit: {proposal.fit})")
+    if held == "unheld":
         say(f"warning: no usual size was found at which a jig holds it; {remedy}")
-    if fit == "tight":
+    if held == "tight":
         say(f"warning: at every usual size some bends are tighter than this wire takes; {remedy}")
     return target
 

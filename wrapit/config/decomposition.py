@@ -90,7 +90,8 @@ class ExactConfig(Block):
 
 
 class ConstraintConfig(Block):
-    """One wish about the wires; `drawing.svg` shows the numbers of segments and junctions."""
+    """One wish about the wires; `drawing.svg` shows the numbers of segments and junctions (with `fit`, the
+    coloured ones, not the grey ones)."""
 
     same_wire: tuple[Numbered, ...] | None = Field(
         default=None, min_length=2, max_length=1000, examples=[[3, 7]]

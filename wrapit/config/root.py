@@ -85,7 +85,9 @@ class Config(Block):
     bail: BailConfig | None = None
     """A loop to hang the piece from, `{at: top, diameter: 5 mm}`; none unless given."""
 
-    fit: Literal["off", "gentle", "bold"] = "off"
+    fit: Literal["off", "gentle", "bold"] = Field(
+        default="off", json_schema_extra={"enum": ["off", "gentle", "bold", False]}
+    )
     """Make the drawing fit for this wire first: round what is too tight, merge and leave out what is too
     small, `gentle` only where it has to be, `bold` for few wires and wide bends."""
 
@@ -95,7 +97,9 @@ class Config(Block):
     drop: tuple[Numbered, ...] = Field(default=(), max_length=1000, examples=[[5]])
     """Segments that are left out; numbers as in the drawing that was read."""
 
-    beads: Literal["never", "auto"] = "never"
+    beads: Literal["never", "auto"] = Field(
+        default="never", json_schema_extra={"enum": ["never", "auto", False, True]}
+    )
     """`auto`: small closed loops and dots of the drawing become beads of their size."""
 
     pair: bool = False
@@ -115,6 +119,20 @@ class Config(Block):
         if name and (problem := name_problem(name)):
             raise ValueError(problem)
         return name
+
+    @field_validator("fit", mode="before")
+    @classmethod
+    def _read_off(cls, value: object) -> object:
+        """`off` is false for many programs that write YAML; true says not how much."""
+        if value is True:
+            raise ValueError("true doesn't say how much; write gentle or bold")
+        return "off" if value is False else value
+
+    @field_validator("beads", mode="before")
+    @classmethod
+    def _read_switch(cls, value: object) -> object:
+        """People also write `false` for `never`, `true` for `auto`."""
+        return {False: "never", True: "auto"}[value] if isinstance(value, bool) else value
 
     @field_validator("drawing")
     @classmethod

@@ -12,7 +12,7 @@ from wrapit.decomposition.rules import Rules
 from wrapit.errors import ConfigError
 
 # Where the user finds the numbers that constraints speak in.
-_HELP = "drawing.svg shows the numbers of segments and junctions"
+_HELP = "drawing.svg shows the numbers of segments and junctions (with `fit`, the coloured ones)"
 
 
 def rules_of(graph: Graph, constraints: Sequence[ConstraintConfig], bridges: bool) -> Rules:

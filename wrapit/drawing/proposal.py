@@ -42,6 +42,10 @@ class Proposal:
     size_mm: int
     findings: tuple[Finding, ...]
     more: tuple[str, ...] = ()
+    fit: str = ""
+    """The value of `fit`, if it is to be written; `about_fit` is a comment, above it or for itself."""
+
+    about_fit: str = ""
 
     def at(self, size_mm: int) -> Proposal:
         """The same at another size."""
@@ -60,6 +64,7 @@ class Proposal:
             "# Longest side of the finished piece. Smaller pieces are harder to bend.",
             f"size: {self.size_mm} mm",
             "",
+            *self._fit(),
             "wire:",
             f"  gauge: {self.gauge} AWG           # {awg_diameter_mm(self.gauge):.2f} mm; "
             "also swg18 or 1.0 mm",
@@ -74,6 +79,11 @@ class Proposal:
             "# `wrapit schema` describes every key; `wrapit check` says whether it can be made.",
         ]
         return "\n".join(pieces) + "\n"
+
+    def _fit(self) -> list[str]:
+        lines = [f"# {self.about_fit}"] if self.about_fit else []
+        lines += [f"fit: {self.fit}"] if self.fit else []
+        return [*lines, ""] if lines else []
 
 
 def propose(path: Path, folder: Path | None = None, preset: str = "") -> Proposal:

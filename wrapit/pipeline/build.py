@@ -17,9 +17,10 @@ from wrapit.pipeline.cache.place import FOLDER, usual_store
 from wrapit.pipeline.cache.remembering import UnreadableEntry
 from wrapit.pipeline.output.folder import followed, prepare, put_in_place, renamed_beside_others, staged
 from wrapit.pipeline.output.ownership import REPORT, artifacts_in, is_whole, own_report, sha256
-from wrapit.pipeline.remedies import what_would_do
 from wrapit.pipeline.stages import run_stages
 from wrapit.pipeline.textfile import write_text
+from wrapit.pipeline.trying.offering import with_offers
+from wrapit.pipeline.trying.remedies import what_would_do
 from wrapit.pipeline.work import STAGES, AfterStage, Progress, Stage, Work
 
 
@@ -108,9 +109,10 @@ def check(
 
 
 def _built(work: Work, folder: Path | None, sources: tuple[Path, ...], asked: Stage) -> Build:
-    """What a build made; that nothing could be kept is told, but no matter of the piece: no file says it."""
+    """What a build made. What `fit` would do and that nothing could be kept is told, but is no matter of
+    the piece as it is: no file says it."""
+    findings = with_offers(work)
     work.store.trim()
-    report = work.report
     if work.store.trouble:
         untold = Finding(
             "note",
@@ -119,7 +121,8 @@ def _built(work: Work, folder: Path | None, sources: tuple[Path, ...], asked: St
             f"nothing is kept there for the next build ({work.store.trouble})",
             "free space, or name another folder in WRAPIT_CACHE (`off` for none)",
         )
-        report = {**report, "findings": reports.findings_list([*work.findings, untold])}
+        findings = [*findings, untold]
+    report = {**work.report, "findings": reports.findings_list(findings)}
     return Build(report, work.timings_s, folder, sources, asked, cached=tuple(work.cached))
 
 

@@ -35,10 +35,23 @@ _OF_TURNS = tuple(
         "turn_curvature",
     )
 )
+# What makes a drawing fit: the wishes, and what wire and jig ask of lines (`fit/limits`).
+_OF_FIT = (
+    "fit",
+    "keep",
+    "drop",
+    "beads",
+    "wire",
+    "jig.clearance",
+    "jig.min_wall_width",
+    "jig.post_bends",
+    "jig.springback",
+)
 STEPS: Final[dict[str, Step]] = {
     "trace": Step(reads=("size", "tracing")),
-    "drawing": Step(("trace",), ("decomposition.bridges",)),
-    "decomposition": Step(("trace",), ("decomposition",)),
+    "fit": Step(("trace",), _OF_FIT),
+    "drawing": Step(("fit",), ("decomposition.bridges",)),
+    "decomposition": Step(("fit",), ("decomposition",)),
     "sketch": Step(("wires",)),
     "alternatives": Step(("wires",)),
     "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", *_OF_TURNS)),
@@ -50,8 +63,12 @@ STEPS: Final[dict[str, Step]] = {
     "wires.step": Step(("wires",), ("name", "jig.base_thickness")),
     "views": Step(("wires",)),
     "guide": Step(("mirrored jig",), ("jigs", "guide")),
+    "offer": Step(("wires",), _OF_FIT),
 }
 """Steps by name. `jig sheet` and so on are those of a kind."""
+
+_NO_FIT: Final = Step(("trace",), ("fit", "drop", "beads"))
+"""Where `fit` isn't taken, what says so: a drawing that isn't fitted is that of any wire."""
 
 # A jig kind that isn't named above: whatever it reads, it is made again when the config changes.
 _WHOLE: Final = Step(("laid",), tuple(Config.model_fields))
@@ -63,18 +80,24 @@ class Keys:
     def __init__(self, config: Config, drawing_sha256: str, suffix: str) -> None:
         self._settings = config.model_dump(mode="json")
         self._drawing = (drawing_sha256, suffix)
+        self._fit = takes_fit(config)
 
     def of(self, step: str, *also: Any, upon: Iterable[str] = ()) -> str:
         """The key of a step; `also` is JSON that it depends on too, `upon` more steps that it is upon."""
-        read = {path for each in (step, *upon) for path in all_reads(each)}
+        read = {path for each in (step, *upon) for path in all_reads(each, fit=self._fit)}
         settings = {path: _part(self._settings, path) for path in read}
         return key_of(step, self._drawing, settings, *also)
 
 
-def all_reads(step: str) -> set[str]:
-    """Keys of the config that a step depends on, itself and by way of others."""
-    said = STEPS.get(step, _WHOLE)
-    return set(said.reads).union(*map(all_reads, said.upon))
+def takes_fit(config: Config) -> bool:
+    """Whether the drawing is changed before it is divided: made fit, parts dropped or made beads."""
+    return config.fit != "off" or bool(config.drop) or config.beads != "never"
+
+
+def all_reads(step: str, *, fit: bool = True) -> set[str]:
+    """Keys of the config that a step depends on, itself and by way of others; `fit` as `takes_fit` says."""
+    said = _NO_FIT if step == "fit" and not fit else STEPS.get(step, _WHOLE)
+    return set(said.reads).union(*(all_reads(each, fit=fit) for each in said.upon))
 
 
 def _part(settings: Any, path: str) -> Any:

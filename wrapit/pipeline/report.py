@@ -18,6 +18,7 @@ from wrapit.pipeline.output.ownership import FORMAT, Artifact
 if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
+    from wrapit.fit.model import Fitted, Measures
     from wrapit.wires.model import JumpRing, Wire
     from wrapit.wires.springback import Overbent
 
@@ -51,6 +52,38 @@ def drawing_numbers(drawing: Drawing, with_bridges: Drawing) -> dict[str, Any]:
         "length_mm": _mm(sum(segment.curve.length for segment in strokes)),
         "size_mm": [_mm(value) for value in high - low],
         "bridges_offered": len(with_bridges.segments) - len(strokes),
+    }
+
+
+def fit_numbers(fitted: Fitted, level: str) -> dict[str, Any]:
+    """The `fit` block: what was changed, and what that cost; shares of the length, places in mm."""
+    changes = fitted.drawing.removed[len(fitted.original.removed) :]
+    return {
+        "level": level,
+        "before": _measures(fitted.before),
+        "after": _measures(fitted.after),
+        "outline_kept": round(fitted.costs.outline_kept, 4),
+        "left_out_share": round(fitted.costs.left_out, 4),
+        "deviation_mm": _mm(fitted.costs.deviation_mm),
+        "changes": dict(sorted(Counter(change.what for change in changes).items())),
+        "beads": [
+            {
+                "at": [_mm(value) for value in bead.at],
+                "diameter_mm": _mm(bead.diameter_mm),
+                "segment": bead.segment,
+            }
+            for bead in fitted.beads
+        ],
+    }
+
+
+def _measures(measures: Measures) -> dict[str, Any]:
+    return {
+        "segments": measures.segments,
+        "wires": measures.wires,
+        "tight_bends": measures.tight_bends,
+        "smallest_face_mm": None if measures.smallest_face_mm is None else _mm(measures.smallest_face_mm),
+        "length_mm": _mm(measures.length_mm),
     }
 
 

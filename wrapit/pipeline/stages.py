@@ -24,6 +24,7 @@ from wrapit.pipeline.jigs import (
     wires_key,
 )
 from wrapit.pipeline.output.ownership import sha256
+from wrapit.pipeline.reads import takes_fit
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
 from wrapit.pipeline.worker import OnCall, Worker
@@ -83,6 +84,14 @@ def _trace(work: Work, folder: Path | None) -> None:
             work.store = Store()  # somebody saved it meanwhile: this is the drawing of no key
         return Outcome(drawing, findings=findings)
 
+    def made_fit() -> Outcome:
+        from wrapit.fit.stage import make_fit
+        from wrapit.pipeline.report import fit_numbers
+
+        assert work.drawing is not None
+        fitted, findings = make_fit(work.drawing, work.config)
+        return Outcome(fitted, {"fit": fit_numbers(fitted, work.config.fit)}, findings)
+
     def drawn() -> Outcome:
         from wrapit.decomposition.bridges import with_bridges
         from wrapit.drawing.json_file import drawing_json
@@ -93,13 +102,15 @@ def _trace(work: Work, folder: Path | None) -> None:
         shown = with_bridges(work.drawing) if work.config.decomposition.bridges else work.drawing
         files = {}
         if folder is not None:
-            files = {"drawing.json": drawing_json(shown), "drawing.svg": drawing_svg(shown)}
+            files = {"drawing.json": drawing_json(shown), "drawing.svg": drawing_svg(shown, work.fitted)}
             for name, text in files.items():
                 write_text(folder / name, text)
         return Outcome(None, {"drawing": drawing_numbers(work.drawing, shown)}, files=tuple(files))
 
     with work.stage("drawing"):
         work.take("trace", work.remember(work.key("trace"), traced, None))
+        if takes_fit(work.config):
+            work.take("fit", work.remember(work.key("fit"), made_fit, None))
         work.take("drawing", work.remember(work.key("drawing", folder is not None), drawn, folder))
 
 

@@ -22,6 +22,8 @@ def summary_lines(result: Build, take: str = "") -> Iterator[str]:
     drawing = report["drawing"]
     width, height = drawing["size_mm"]
     yield f"{report['name']}: {_count(drawing['segments'], 'segment')}, {width:.0f} × {height:.0f} mm"
+    if "fit" in report:
+        yield fit_line(report["fit"])
     if "decomposition" in report:
         energy, optimal = report["decomposition"]["energy"], report["decomposition"]["optimal"]
         proof = ", proven best" if optimal else ""
@@ -40,6 +42,20 @@ def summary_lines(result: Build, take: str = "") -> Iterator[str]:
         for artifact in result.report["artifacts"] if take else ():
             if artifact.get("instead_of", artifact["path"]) == ALTERNATIVES:
                 yield f"alternatives: {result.folder / artifact['path']}; take one with: {take}"
+
+
+def fit_line(fit: dict[str, Any]) -> str:
+    """What was changed to make the drawing fit, from its block of the report."""
+    before, after = fit["before"], fit["after"]
+    name = f"fit {fit['level']}" if fit["level"] != "off" else "left out as asked"
+    tight = "no bend" if not after["tight_bends"] else _count(after["tight_bends"], "bend")
+    parts = [
+        f"{before['segments']} -> {_count(after['segments'], 'segment')}",
+        f"{before['wires']} -> {_count(after['wires'], 'wire')}",
+        f"{tight} too tight",
+        *([_count(len(fit["beads"]), "bead")] if fit["beads"] else []),
+    ]
+    return f"{name}: {', '.join(parts)}; {fit['left_out_share']:.0%} of the lines left out"
 
 
 def _where(result: Build) -> str:

@@ -18,6 +18,7 @@ from wrapit.pipeline.reads import Keys
 if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
+    from wrapit.fit.model import Fitted
     from wrapit.jig.made import Made
     from wrapit.wires.model import JumpRing, Wire
 
@@ -66,8 +67,17 @@ class Work:
 
     @property
     def drawing(self) -> Drawing | None:
+        """As it is divided into wires: as it was read, or made fit."""
+        if self.fitted is not None:
+            return self.fitted.drawing
         drawing: Drawing | None = self._value("trace")
         return drawing
+
+    @property
+    def fitted(self) -> Fitted | None:
+        """What the stage fit made; None where the config doesn't ask for it."""
+        fitted: Fitted | None = self._value("fit")
+        return fitted
 
     @property
     def solution(self) -> Solution | None:

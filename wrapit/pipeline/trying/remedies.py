@@ -1,4 +1,4 @@
-"""What a piece that can't be made as asked would need: the nearest size and gauge, found by trying."""
+"""What a piece that can't be made as asked would need: the nearest size, gauge and fit, found by trying."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 from wrapit.config import Config
 from wrapit.errors import WrapItError
+from wrapit.pipeline.trying.tried import bolder, read, tried, with_fit
 from wrapit.units import awg_diameter_mm
 
 # How does the search for a size go on? In steps of 1.4, up to what the config takes.
@@ -19,7 +20,7 @@ _GAUGES = (*range(10, 32, 2),)
 
 
 def what_would_do(config: Config, drawing_path: Path) -> str:
-    """The remedy for a jig that holds too little: a size and a gauge, each of them planned and measured."""
+    """The remedy for a jig that holds too little: a size, a gauge and a fit, each planned and measured."""
     shares: dict[str, float] = {}
 
     def holds(setting: str, change: Config) -> bool:
@@ -31,10 +32,13 @@ def what_would_do(config: Config, drawing_path: Path) -> str:
 
     size_mm = smallest_size(holds_at, _size_mm(config, drawing_path))
     gauge = next((setting for setting, change in _thinner(config) if holds(setting, change)), None)
-    choices = [*([f"size: {size_mm} mm"] if size_mm else []), *([gauge] if gauge else [])]
-    if not choices:
+    fitted = ((f"fit: {level}", with_fit(config, level)) for level in bolder(config))
+    fit = next((setting for setting, change in fitted if holds(setting, change)), None)
+    choices = [f"size: {size_mm} mm" if size_mm else None, gauge, fit]
+    found = [choice for choice in choices if choice is not None]
+    if not found:
         return f"no size up to {_LARGEST_MM} mm and no wire would do: simplify the drawing"
-    return " or ".join(f"with {choice} they would hold {shares[choice]:.0%}" for choice in choices)
+    return " or ".join(f"with {choice} they would hold {shares[choice]:.0%}" for choice in found)
 
 
 def smallest_size(does: Callable[[int], bool], size_mm: float) -> int | None:
@@ -57,16 +61,11 @@ def smallest_size(does: Callable[[int], bool], size_mm: float) -> int | None:
 
 def held_share(config: Config, drawing_path: Path) -> float:
     """The share of its turns that a piece's first kind of jig would hold; 0 where it can't be planned."""
-    from wrapit.decomposition.stage import decompose
-    from wrapit.drawing.stage import trace
     from wrapit.jig.kinds import JIGS
     from wrapit.jig.overbending import overbend_wires
-    from wrapit.wires.stage import draw_wires
 
     try:
-        drawing, _ = trace(drawing_path, config.tracing, config.size)
-        solution, _ = decompose(drawing, config.decomposition)
-        wires, _ = draw_wires(solution, config)
+        wires = tried(config, drawing_path).wires
         if config.jig.springback == "compensate":
             wires = tuple(bent.wire for bent in overbend_wires(wires, config)[0])
         return JIGS[config.jigs[0]].held(wires, config)
@@ -75,9 +74,7 @@ def held_share(config: Config, drawing_path: Path) -> float:
 
 
 def _size_mm(config: Config, drawing_path: Path) -> float:
-    from wrapit.drawing.stage import trace
-
-    drawing, _ = trace(drawing_path, config.tracing, config.size)
+    drawing, _ = read(config, drawing_path)
     low, high = drawing.bounds_mm
     return float(max(high - low))
 

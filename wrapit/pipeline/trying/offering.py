@@ -1,0 +1,113 @@
+"""Whether a drawing that is made fit would help against bends that are too tight: tried before it is told."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from wrapit.config import Config
+from wrapit.errors import Finding, WrapItError
+from wrapit.pipeline.cache.remembering import Outcome
+from wrapit.pipeline.trying.tried import FitLevel, bolder, tried, with_fit
+from wrapit.pipeline.work import Work
+
+# What a drawing of wider bends and fewer lines mends.
+_ASKING: Final = {"tight-bend", "wire-without-solid"}
+# A smaller share of the lines that is left out reads as none.
+_NOTHING: Final = 0.005
+
+
+@dataclass(frozen=True)
+class _Made:
+    """What counts of a trial; less of both is better."""
+
+    tight_bends: int
+    wires: int
+    left_out: float
+
+
+def with_offers(work: Work) -> list[Finding]:
+    """The findings of a build, those that a fitted drawing would mend with what it would do.
+
+    It is for who reads them now: no file says it.
+    """
+    if not any(_asks(each) for each in work.findings) or not bolder(work.config):
+        return work.findings
+    key = work.key("offer")
+    made = work.remember(key, lambda: Outcome(blocks={"said": offer(work.config, work.drawing_path)}), None)
+    said = made.blocks["said"]
+    if not said:
+        return work.findings
+    return [
+        dataclasses.replace(each, remedy=f"{each.remedy}; {said}") if _asks(each) else each
+        for each in work.findings
+    ]
+
+
+def offer(config: Config, path: Path) -> str:
+    """What the gentlest `fit` does that leaves no bend too tight, or else the one that leaves the fewest.
+
+    Empty where none leaves fewer, nor as many with fewer wires.
+
+    >>> from wrapit.config import Config
+    >>> offer(Config(drawing="x.svg", fit="bold"), Path("x.svg"))
+    ''
+    """
+    before = _made(config, path) if bolder(config) else None
+    if before is None:
+        return ""
+    best: tuple[FitLevel, _Made] | None = None
+    for level in bolder(config):
+        made = _made(with_fit(config, level), path)
+        if made is not None and _gain(made) < _gain(best[1] if best is not None else before):
+            best = level, made
+        if best is not None and best[1].tight_bends == 0:
+            break
+    return f"with fit: {best[0]}: {_told(before, best[1])}" if best is not None else ""
+
+
+def gain_of(config: Config, path: Path, level: FitLevel) -> str:
+    """What a level would do to a piece, in few words; empty where it has neither wires nor bends less."""
+    before, made = _made(config, path), _made(with_fit(config, level), path)
+    if before is None or made is None or _gain(made) >= _gain(before):
+        return ""
+    return _told(before, made)
+
+
+def _asks(finding: Finding) -> bool:
+    return finding.code in _ASKING and finding.level != "note"
+
+
+def _made(config: Config, path: Path) -> _Made | None:
+    """None where it can't be made: that is no remedy."""
+    try:
+        found = tried(config, path)
+    except WrapItError:
+        return None
+    left_out = found.fitted.costs.left_out if found.fitted is not None else 0.0
+    return _Made(len(found.tight_bends), len(found.wires), left_out)
+
+
+def _gain(made: _Made) -> tuple[int, int]:
+    return made.tight_bends, made.wires
+
+
+def _told(before: _Made, then: _Made) -> str:
+    """In few words.
+
+    >>> _told(_Made(3, 9, 0.0), _Made(0, 6, 0.081))
+    'no tight bend, 6 wires instead of 9, 8% of the lines left out'
+    >>> _told(_Made(3, 9, 0.0), _Made(1, 9, 0.0))
+    '1 tight bend instead of 3'
+    """
+    parts = []
+    if before.tight_bends:
+        bends = f"{then.tight_bends} tight bend{'' if then.tight_bends == 1 else 's'}"
+        parts.append(f"{bends} instead of {before.tight_bends}" if then.tight_bends else "no tight bend")
+    if then.wires != before.wires:
+        parts.append(f"{then.wires} wire{'' if then.wires == 1 else 's'} instead of {before.wires}")
+    if then.left_out - before.left_out > _NOTHING:
+        parts.append(f"{then.left_out:.0%} of the lines left out")
+    return ", ".join(parts)

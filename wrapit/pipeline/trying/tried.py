@@ -1,0 +1,72 @@
+"""What a build makes of a config up to its wires, made to see what would be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal
+
+from wrapit.config import Config
+from wrapit.pipeline.reads import takes_fit
+
+if TYPE_CHECKING:
+    from wrapit.drawing.model import Drawing
+    from wrapit.errors import Finding
+    from wrapit.fit.model import Fitted
+    from wrapit.wires.model import Wire
+
+FitLevel = Literal["gentle", "bold"]
+LEVELS: Final[tuple[FitLevel, ...]] = ("gentle", "bold")
+"""Of `fit`, the one that changes less first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """What the stages made; `fitted` is None where that stage isn't taken."""
+
+    drawing: Drawing
+    fitted: Fitted | None
+    wires: tuple[Wire, ...]
+    findings: tuple[Finding, ...]
+    """Of the wires."""
+
+    @property
+    def tight_bends(self) -> tuple[Finding, ...]:
+        """Those that the metal doesn't take."""
+        return tuple(each for each in self.findings if each.code == "tight-bend" and each.level != "note")
+
+
+def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
+    """The drawing that a build divides into wires: traced, and made fit where the config asks for it.
+
+    Raises the WrapItError of the stage that fails.
+    """
+    from wrapit.drawing.stage import trace
+
+    drawing, _ = trace(path, config.tracing, config.size)
+    if not takes_fit(config):
+        return drawing, None
+    from wrapit.fit.stage import make_fit
+
+    fitted, _ = make_fit(drawing, config)
+    return fitted.drawing, fitted
+
+
+def tried(config: Config, path: Path) -> Tried:
+    """The wires that a build would make. Raises the WrapItError of the stage that fails."""
+    from wrapit.decomposition.stage import decompose
+    from wrapit.wires.stage import draw_wires
+
+    drawing, fitted = read(config, path)
+    wires, findings = draw_wires(decompose(drawing, config.decomposition)[0], config)
+    return Tried(drawing, fitted, wires, findings)
+
+
+def with_fit(config: Config, level: FitLevel) -> Config:
+    """The config with another `fit`."""
+    return config.model_copy(update={"fit": level})
+
+
+def bolder(config: Config) -> tuple[FitLevel, ...]:
+    """The levels that change more than the config's."""
+    return LEVELS if config.fit == "off" else LEVELS[LEVELS.index(config.fit) + 1 :]
