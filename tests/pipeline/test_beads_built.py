@@ -99,7 +99,9 @@ def _area(loop: Any) -> float:
     ],
 )
 def test_the_guide_threads_and_lists_them(tmp_path: Path, language: str, said: tuple[str, ...]) -> None:
-    built = build(necklace(tmp_path, guide={"language": language}), tmp_path / "out")
+    # Gauges in whole numbers, for the lock gives them in nine digits.
+    guide = {"language": language, "binding_gauge": "0.3 mm"}
+    built = build(necklace(tmp_path, guide=guide, wire={"gauge": "1 mm"}), tmp_path / "out")
     page = page_of(built)
     for words in said:
         assert words in page
