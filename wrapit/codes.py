@@ -103,14 +103,15 @@ WIRES: Final = {
     "slight-turn": Saying("a slight bend is left to the hand, without a wall", "lower `jig.turn_angle`"),
     "tight-bend": Saying(
         "the drawing asks for a bend that damages the wire, or can't be made",
-        "make the piece larger, or use thinner or softer wire",
+        "make the piece larger, use thinner or softer wire, or set `fit: gentle`",
     ),
     "weak-wire": Saying(
         "a wire is tied to the others at one junction only and can swing",
         "extend its line, or set `decomposition.refine_dangling: auto`",
     ),
     "wire-without-solid": Saying(
-        "a wire's round solid isn't sound; `wires.step` holds its centreline alone", "make the piece larger"
+        "a wire's round solid isn't sound; `wires.step` holds its centreline alone",
+        "make the piece larger, or set `fit: gentle`",
     ),
 }
 """How the drawing became wires."""
@@ -240,7 +241,7 @@ ERRORS: Final = {
         "a fault of the program's that nobody foresaw", "run again with `-vv`, and report it"
     ),
     "unheld": Saying(
-        "walls would hold too little of the turns", "take the size or gauge that the message names"
+        "walls would hold too little of the turns", "take the size, gauge or fit that the message names"
     ),
     "usage": Saying("the command line isn't one that wrapit knows", "see `wrapit --help`"),
     "wire": Saying("a wire can't be bent as the drawing asks", "make the piece larger, or the wire thinner"),

@@ -16,6 +16,7 @@ from pydantic import BaseModel, ValidationError
 
 from wrapit.config import Config, load_config, schema
 from wrapit.config.choices import choices, folded
+from wrapit.errors import ConfigError
 from wrapit.units import SWG_MM, awg_diameter_mm, gauge_diameter_mm, length_mm
 
 AMERICAN = (
@@ -232,3 +233,28 @@ def test_a_config_as_a_crafter_writes_it(tmp_path: Path) -> None:
     assert (config.jigs, config.outputs, config.guide.paper) == (("printed",), ("stl", "3mf"), "A4")
     assert config.bail is not None
     assert (config.bail.at, config.bail.diameter) == ("top", pytest.approx(6.35))
+
+
+@pytest.mark.parametrize(
+    ("key", "said", "meant"),
+    [
+        ("fit", "off", "off"),
+        ("fit", "false", "off"),
+        ("fit", "Bold", "bold"),
+        ("beads", "false", "never"),
+        ("beads", "true", "auto"),
+    ],
+)
+def test_switches_of_fit(tmp_path: Path, key: str, said: str, meant: str) -> None:
+    config = tmp_path / "x.yaml"
+    config.write_text(f"drawing: x.svg\n{key}: {said}\n")
+    assert getattr(load_config(config), key) == meant
+    assert getattr(load_config(config, [f"{key}={said}"]), key) == meant
+
+
+def test_fit_says_how_much(tmp_path: Path) -> None:
+    config = tmp_path / "x.yaml"
+    config.write_text("drawing: x.svg\nfit: true\n")
+    with pytest.raises(ConfigError) as refusal:
+        load_config(config)
+    assert re.search(r"x\.yaml:2:1 fit: .*gentle or bold", str(refusal.value))

@@ -11,7 +11,7 @@ from typing import Any, Self
 import pytest
 
 from tests.conftest import CONFIGS
-from tests.pipeline.folders import written_piece
+from tests.pipeline.folders import PIECE, written_piece
 from wrapit.config import Config
 from wrapit.config.block import Block
 from wrapit.jig.kinds import JIGS
@@ -144,6 +144,33 @@ def test_nor_with_seats_and_a_size_of_its_own(tmp_path: Path, recorder: Recorder
 def test_nor_for_pieces_of_the_gallery(tmp_path: Path, recorder: Recorder, name: str) -> None:
     build(CONFIGS / f"{name}.yaml", tmp_path / "out", until="wires")
     assert recorder.undeclared() == {}
+
+
+@pytest.mark.parametrize("settings", [("fit=gentle",), ("fit=bold", "beads=auto"), ("drop=[0]", "keep=[1]")])
+@pytest.mark.parametrize("springback", ["report", "compensate"])
+def test_nor_where_it_is_made_fit(
+    tmp_path: Path, recorder: Recorder, settings: tuple[str, ...], springback: str
+) -> None:
+    also = (f"jig.springback={springback}", "jig.post_bends=true", "decomposition.bridges=true")
+    build(CONFIGS / "leaf.yaml", tmp_path / "out", (*settings, *also), until="wires")
+    assert recorder.undeclared() == {}
+    assert {"fit", "drop"} <= recorder.read["fit"]
+
+
+def test_nor_does_an_offer(tmp_path: Path, recorder: Recorder) -> None:
+    config = written_piece(tmp_path)
+    corner = '<path d="M 5 20 C 5 5 10 5 10 7 C 10 8 9 8 9 7.5" fill="none" stroke="black"/></svg>'
+    (tmp_path / "piece.svg").write_text(PIECE.replace("</svg>", corner))
+    build(config, tmp_path / "out", until="wires")
+    assert recorder.undeclared() == {}
+    assert "wire.gauge" in recorder.read["offer"]
+
+
+@pytest.mark.parametrize("step", ["decomposition", "drawing"])
+def test_what_is_not_fitted_is_of_any_wire(step: str) -> None:
+    assert "wire" in all_reads(step, fit=True)
+    assert all_reads(step, fit=False) & {"wire", "keep", "jig.clearance"} == set()
+    assert all_reads(step, fit=False) >= {"fit", "drop", "beads"}
 
 
 def test_a_step_that_reads_more_is_found(

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from tests.conftest import CONFIGS
-from tests.pipeline.folders import held, written_piece
+from tests.pipeline.folders import PIECE, held, written_piece
 from wrapit.errors import UnheldError
 from wrapit.pipeline import stages
 from wrapit.pipeline.build import build, check
@@ -44,6 +44,9 @@ CHANGES: list[tuple[str, set[str]]] = [
     ("decomposition.bridges=true", ALL - {"trace"}),
     ("size=41 mm", ALL),
     ("name=other", {PRINTED} | EXPORTS),
+    ("keep=[0]", set()),
+    ("fit=gentle", (ALL - {"trace"}) | {"fit"}),
+    ("beads=auto", (ALL - {"trace"}) | {"fit"}),
 ]
 KERNEL_FREE = {"guide", "views", SHEET} | DRAWN
 OUTPUTS = ["step", "stl", "dxf", "html"]
@@ -83,6 +86,39 @@ def test_what_a_change_makes_again(
     monkeypatch.undo()  # the suite's own setting: no cache
     build(copied, tmp_path / "uncached", (change,))
     assert held(tmp_path / "cached") == held(tmp_path / "uncached")
+
+
+@pytest.mark.parametrize(
+    ("change", "made"),
+    [
+        ("wire.gauge=20 AWG", {"fit"} | DRAWN - {"trace"}),
+        ("jig.min_wall_width=3 mm", {"fit"} | DRAWN - {"trace"}),
+        ("keep=[0]", {"fit"} | DRAWN - {"trace"}),
+        ("jig.wall_thickness=4 mm", set()),
+        ("guide.margin=70 mm", {"wires"}),
+    ],
+)
+def test_what_a_change_makes_again_of_a_fitted_piece(
+    tmp_path: Path, copied: Path, anew: list[str], change: str, made: set[str]
+) -> None:
+    build(copied, tmp_path / "first", ("fit=gentle",), until="wires")
+    anew.clear()
+    build(copied, tmp_path / "cached", ("fit=gentle", change), until="wires")
+    assert set(anew) == made
+
+
+def test_an_offer_is_tried_once(tmp_path: Path, cache: Path, anew: list[str]) -> None:
+    config = written_piece(tmp_path)
+    corner = '<path d="M 5 20 C 5 5 10 5 10 7 C 10 8 9 8 9 7.5" fill="none" stroke="black"/></svg>'
+    (tmp_path / "piece.svg").write_text(PIECE.replace("</svg>", corner))
+    first = build(config, tmp_path / "first", until="wires").report
+    assert "tight-bend" in {each["code"] for each in first["findings"]}
+    assert anew.count("offer") == 1
+    again = build(config, tmp_path / "second", until="wires")
+    assert anew.count("offer") == 1
+    assert again.report["findings"] == first["findings"]
+    assert again.cached == STAGES[:3]
+    assert cache.is_dir()
 
 
 def test_of_the_same_input_nothing_is_made_again(
