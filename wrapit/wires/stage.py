@@ -21,7 +21,7 @@ from wrapit.wires.centreline import FOLD_RAD, Joined, join
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
 from wrapit.wires.stacking import lay_wires, layers_of
-from wrapit.wires.threading import with_beads
+from wrapit.wires.strung.threading import with_beads
 from wrapit.wires.ties import find_bindings
 from wrapit.wires.turns import find_turns
 
