@@ -27,7 +27,7 @@ STEP_OF_SIZES_MM: Final = 0.5
 _SHARE_OF_DRAWING = 0.5
 # Mirrored loops, traced from one picture, differ by up to a pixel or two: 0.1 mm at 40 mm and 800 px. Loops
 # as alike as that are of one size, and all of them beads or none.
-_ALIKE_MM = 0.1
+ALIKE_MM = 0.1
 _ALIKE_ROUND = 0.03
 # A loop of more lines has more than two neighbours, or corners: no bead.
 _LINES = 3
@@ -83,6 +83,22 @@ def size_of(diameter_mm: float) -> float | None:
     """The bead that can be bought nearest to a diameter; None where there is none of that size."""
     size_mm = STEP_OF_SIZES_MM * round(diameter_mm / STEP_OF_SIZES_MM)
     return size_mm if SMALLEST_MM <= size_mm <= LARGEST_MM else None
+
+
+def alike(pairs: Sequence[tuple[float, float]], within: tuple[float, float]) -> list[list[int]]:
+    """Indices of pairs of numbers in groups: those that are as near to another of the group in both.
+
+    >>> alike([(3.0, 1.0), (5.0, 1.0), (3.1, 1.0)], (0.2, 0.1))
+    [[0, 2], [1]]
+    """
+    sets = Sets()
+    for (i, one), (j, other) in itertools.combinations(enumerate(pairs), 2):
+        if all(abs(a - b) <= most for a, b, most in zip(one, other, within, strict=True)):
+            sets.merge(i, j)
+    groups: dict[int, list[int]] = {}
+    for index in range(len(pairs)):
+        groups.setdefault(sets.find(index), []).append(index)
+    return list(groups.values())
 
 
 def _distance_mm(points: FloatArray, at: FloatArray) -> float:
@@ -153,19 +169,12 @@ def _can_be_led(sketch: Sketch, middle: FloatArray, ways: Mapping[int, tuple[Arm
 
 def _sizes(loops: Sequence[_Loop]) -> list[float | None]:
     """The bead for each loop, None where it is too large, too small, or not round; alike for loops alike."""
-    alike = Sets()
-    for (i, one), (j, other) in itertools.combinations(enumerate(loops), 2):
-        near = abs(one.diameter_mm - other.diameter_mm) <= _ALIKE_MM
-        if near and abs(one.roundness - other.roundness) <= _ALIKE_ROUND:
-            alike.merge(i, j)
-    groups: dict[int, list[_Loop]] = {}
-    for index, loop in enumerate(loops):
-        groups.setdefault(alike.find(index), []).append(loop)
-    sizes: list[float | None] = []
-    for index in range(len(loops)):
-        group = groups[alike.find(index)]
-        is_round = np.mean([each.roundness for each in group]) >= ROUND
-        sizes.append(size_of(float(np.mean([each.diameter_mm for each in group]))) if is_round else None)
+    sizes: list[float | None] = [None] * len(loops)
+    for group in alike([(loop.diameter_mm, loop.roundness) for loop in loops], (ALIKE_MM, _ALIKE_ROUND)):
+        if np.mean([loops[index].roundness for index in group]) >= ROUND:
+            size_mm = size_of(float(np.mean([loops[index].diameter_mm for index in group])))
+            for index in group:
+                sizes[index] = size_mm
     return sizes
 
 

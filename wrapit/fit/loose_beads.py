@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
 from wrapit.drawing.model import Dot, Removal
 from wrapit.errors import Finding
-from wrapit.fit.beads import SMALLEST_MM, STEP_OF_SIZES_MM, size_of
+from wrapit.fit.beads import ALIKE_MM, SMALLEST_MM, STEP_OF_SIZES_MM, alike, size_of
 from wrapit.fit.faces import STEP_MM
 from wrapit.fit.model import Bead, Limits
 from wrapit.fit.sketch import Sketch
@@ -22,52 +22,74 @@ _BESIDE_MM = 0.25
 _SMALLER_MM = 1.0
 
 
+_REMEDY = "draw it larger and up to half a millimetre beside a line, or as a ring on the line"
+
+
 def loose_beads(
     dots: Iterable[Dot], sketch: Sketch, beads: Sequence[Bead], limits: Limits
 ) -> tuple[tuple[Bead, ...], tuple[Removal, ...], tuple[Finding, ...]]:
     """Beads for dots that have a bead's size and a line near enough, what is told of them, and of the others.
 
-    A dot with too little room for its bead gets a smaller one. They keep clear of the `beads` that there are.
+    A dot with too little room for its bead gets a smaller one; dots alike get beads alike. They keep clear of
+    the `beads` that there are.
     """
+    found: list[Bead] = []
+    told, said = [], []
+    for dot, size_mm, room_mm in _measured(dots, sketch, limits):
+        problem = _taken(dot, size_mm, [*beads, *found])
+        if problem is None:
+            problem = _problem(size_mm, room_mm)
+        if problem is None:
+            bead = Bead(np.array(dot.at), min(size_mm, _fitting(room_mm)))
+            found.append(bead)
+            drawn = f"becomes a bead of {bead.diameter_mm:g} mm; drawn {dot.diameter_mm:.2f} mm"
+            told.append(Removal("bead", dot.at, np.pi * dot.diameter_mm, drawn))
+        elif problem:
+            place = f"at ({dot.at[0]:.1f}, {dot.at[1]:.1f}) mm"
+            said.append(Finding("note", "no-bead", place, f"this dot becomes no bead: {problem}", _REMEDY))
+    return tuple(found), tuple(told), tuple(said)
+
+
+def _measured(dots: Iterable[Dot], sketch: Sketch, limits: Limits) -> list[tuple[Dot, float, float]]:
+    """Dots of a bead's size, the largest first, each with that size and the diameter that has room there."""
     import shapely
 
     lines = shapely.union_all(
         [shapely.LineString(line.curve.sampled(STEP_MM)) for line in sketch.lines.values()]
     )
-    # Eyes that are left out as two pieces, an iris with its pupil, are one bead: the larger.
-    found: list[Bead] = []
-    told, said = [], []
-    for dot in sorted(dots, key=lambda dot: (-round(dot.diameter_mm, 2), dot.at[1], abs(dot.at[0]), dot.at)):
-        bead = _bead(dot, lines, [*beads, *found], limits)
-        if isinstance(bead, Bead):
-            found.append(bead)
-            drawn = f"becomes a bead of {bead.diameter_mm:g} mm; drawn {dot.diameter_mm:.2f} mm"
-            told.append(Removal("bead", dot.at, np.pi * dot.diameter_mm, drawn))
-        elif bead:
-            place = f"at ({dot.at[0]:.1f}, {dot.at[1]:.1f}) mm"
-            said.append(Finding("note", "no-bead", place, f"this dot becomes no bead: {bead}", _REMEDY))
-    return tuple(found), tuple(told), tuple(said)
+    each = sorted(dots, key=lambda dot: (-dot.diameter_mm, dot.at))
+    rooms = [
+        2 * (float(lines.distance(shapely.Point(dot.at))) - limits.diameter_mm / 2 - _BESIDE_MM)
+        for dot in each
+    ]
+    pairs = [(dot.diameter_mm, room) for dot, room in zip(each, rooms, strict=True)]
+    measured = []
+    for group in alike(pairs, (ALIKE_MM, 2 * ALIKE_MM)):
+        size_mm = size_of(float(np.mean([each[index].diameter_mm for index in group])))
+        if size_mm is not None:
+            room_mm = min(rooms[index] for index in group)
+            measured += [(each[index], size_mm, room_mm) for index in group]
+    return measured
 
 
-_REMEDY = "draw it larger and up to half a millimetre beside a line, or as a ring on the line"
+def _fitting(room_mm: float) -> float:
+    return STEP_OF_SIZES_MM * math.floor(room_mm / STEP_OF_SIZES_MM + 1e-6)
 
 
-def _bead(dot: Dot, lines: Any, others: Sequence[Bead], limits: Limits) -> Bead | str:
-    """The bead for a dot, or why there is none; an empty reason where nobody asks for one."""
-    import shapely
-
-    size_mm, at = size_of(dot.diameter_mm), np.array(dot.at)
-    if size_mm is None:
-        return ""
-    room_mm = 2 * (float(lines.distance(shapely.Point(at))) - limits.diameter_mm / 2 - _BESIDE_MM)
-    fits_mm = STEP_OF_SIZES_MM * np.floor(room_mm / STEP_OF_SIZES_MM + 1e-6)
-    if fits_mm < max(SMALLEST_MM, size_mm - _SMALLER_MM):
+def _problem(size_mm: float, room_mm: float) -> str | None:
+    """Why there is no bead of a size, or a little less, between the lines; None where there is."""
+    fitting_mm = _fitting(room_mm)
+    if fitting_mm < max(SMALLEST_MM, size_mm - _SMALLER_MM):
         return f"between the lines there is room for {max(room_mm, 0.0):.1f} mm"
-    fitting_mm = float(min(size_mm, fits_mm))
-    if room_mm - fitting_mm > 2 * (REACH_MM - _BESIDE_MM):
+    if room_mm - min(size_mm, fitting_mm) > 2 * (REACH_MM - _BESIDE_MM):
         return f"there is no wire within {REACH_MM:g} mm of it that it could be sewn to"
+    return None
+
+
+def _taken(dot: Dot, size_mm: float, others: Sequence[Bead]) -> str | None:
+    """Whether other beads leave no place: a reason, but none to tell where it is a pupil in its iris."""
     for other in others:
-        apart_mm = float(np.linalg.norm(other.at - at)) - (other.diameter_mm + fitting_mm) / 2
-        if apart_mm < 2 * _BESIDE_MM:
-            return "" if apart_mm < -fitting_mm / 2 else "another bead is in its place"
-    return Bead(at, fitting_mm)
+        apart_mm = math.dist(other.at, dot.at)
+        if apart_mm < (other.diameter_mm + size_mm) / 2 + 2 * _BESIDE_MM:
+            return "" if apart_mm < other.diameter_mm / 2 else "another bead is in its place"
+    return None
