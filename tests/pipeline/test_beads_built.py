@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import re
@@ -106,6 +107,11 @@ def test_the_guide_threads_and_lists_them(tmp_path: Path, language: str, said: t
     for words in said:
         assert words in page
     assert built.report["jig"]["seats"] == 2
+    (wire,) = built.report["wires"]
+    assert sorted((bead["diameter_mm"], bead["held"]) for bead in wire["beads"]) == [
+        (4.0, "threaded"),
+        (5.0, "threaded"),
+    ]
     lock = (tmp_path / "out" / "config.lock.yaml").read_text()
     assert "beads: auto" in lock
     assert "seats: []" in lock
@@ -143,3 +149,29 @@ def test_never_is_as_if_beads_were_unknown(tmp_path: Path) -> None:
 def test_other_kinds_keep_clear_and_say_that_they_have_no_seats(tmp_path: Path) -> None:
     built = build(necklace(tmp_path, jigs=["sheet", "pegs"], outputs=["dxf"]), tmp_path / "out")
     assert "seats-in-print-only" in {finding["code"] for finding in built.report["findings"]}
+
+
+def test_pictures_show_the_beads(tmp_path: Path) -> None:
+    from PIL import Image
+
+    from wrapit.exports.preview_png import BEAD, write_preview
+    from wrapit.instructions.pictures import Scene
+
+    config = load_config(necklace(tmp_path))
+    drawing, _ = trace(tmp_path / "piece.svg", config)
+    fitted, _ = make_fit(drawing, config)
+    (wire,), _ = draw_wires(decompose(fitted.drawing, config)[0], config, fitted.beads)
+    scene = Scene.of_piece("piece", (wire,))
+    line, *rims = scene.shared[scene.wire_key(1)]
+    for rim, bead, place in zip(rims, wire.beads, wire.bead_places, strict=True):
+        assert isinstance(rim.geometry, type(line.geometry))
+        away = np.linalg.norm(rim.geometry.sampled(0.1) - place, axis=1)
+        assert away == pytest.approx((bead.diameter_mm - wire.diameter_mm) / 2, abs=1e-3)
+    write_preview(tmp_path / "seen.png", (wire,))
+    write_preview(tmp_path / "bare.png", (dataclasses.replace(wire, beads=()),))
+    seen, bare = (np.asarray(Image.open(tmp_path / name)) for name in ("seen.png", "bare.png"))
+    discs = (seen == BEAD).all(axis=2).sum()
+    assert not (bare == BEAD).all(axis=2).any()
+    wide_mm = np.ptp(wire.centreline.at(np.linspace(*wire.centreline.domain, 500))[:, 0])
+    mm2 = discs * (wide_mm / bare.shape[1]) ** 2
+    assert mm2 == pytest.approx(math.pi * (2**2 + 2.5**2), rel=0.4)

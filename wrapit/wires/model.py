@@ -151,6 +151,8 @@ class Wire:
     @property
     def bead_places(self) -> FloatArray:
         """The middles of its beads, (n, 2)."""
+        if not self.beads:
+            return np.empty((0, 2))
         along = ArcLength(self.centreline).parameter(np.array([bead.at_mm for bead in self.beads]))
         ahead = self.centreline.derivative(along)
         left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / np.linalg.norm(ahead, axis=1)[:, None]
