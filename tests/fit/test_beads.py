@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wrapit.config import Config
-from wrapit.fit.beads import LARGEST_MM, SMALLEST_MM, beaded, passing
+from wrapit.fit.beading.beads import LARGEST_MM, SMALLEST_MM, beaded, passing
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import corners
 from wrapit.fit.model import Bead

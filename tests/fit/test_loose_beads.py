@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from wrapit.config import Config
 from wrapit.drawing.model import Dot
-from wrapit.fit.beads import LARGEST_MM, SMALLEST_MM
+from wrapit.fit.beading.beads import LARGEST_MM, SMALLEST_MM
+from wrapit.fit.beading.loose_beads import REACH_MM, loose_beads
 from wrapit.fit.limits import limits_of
-from wrapit.fit.loose_beads import REACH_MM, loose_beads
 from wrapit.fit.model import Bead
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry import straight

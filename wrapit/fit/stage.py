@@ -5,7 +5,7 @@ from __future__ import annotations
 from wrapit.config import Config
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
-from wrapit.fit.bead_places import in_segments, with_beads
+from wrapit.fit.beading.bead_places import in_segments, with_beads
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures, unchanged

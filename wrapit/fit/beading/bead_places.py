@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from wrapit.drawing.model import Dot, Drawing
 from wrapit.errors import Finding
-from wrapit.fit.beads import beaded, passing
-from wrapit.fit.loose_beads import loose_beads
+from wrapit.fit.beading.beads import beaded, passing
+from wrapit.fit.beading.loose_beads import loose_beads
 from wrapit.fit.model import Bead, Limits
 from wrapit.fit.sketch import Sketch
 

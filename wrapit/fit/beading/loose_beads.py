@@ -9,7 +9,7 @@ import numpy as np
 
 from wrapit.drawing.model import Dot, Removal
 from wrapit.errors import Finding
-from wrapit.fit.beads import ALIKE_MM, SMALLEST_MM, STEP_OF_SIZES_MM, alike, size_of
+from wrapit.fit.beading.beads import ALIKE_MM, SMALLEST_MM, STEP_OF_SIZES_MM, alike, size_of
 from wrapit.fit.faces import STEP_MM
 from wrapit.fit.model import Bead, Limits
 from wrapit.fit.sketch import Sketch
