@@ -11,7 +11,7 @@ import pytest
 from tests.decomposition.asking import solved
 from tests.decomposition.drawings import drawing_of, lotus
 from wrapit.decomposition.json_file import decomposition_json
-from wrapit.decomposition.symmetry import mirror_images
+from wrapit.drawing.reflection import mirror_images
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.4])

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from wrapit.config import Config
 from wrapit.drawing.model import Dot
+from wrapit.fit.beading.bead_places import beads_of
 from wrapit.fit.beading.beads import LARGEST_MM, SMALLEST_MM
 from wrapit.fit.beading.loose_beads import REACH_MM, loose_beads
 from wrapit.fit.limits import limits_of
@@ -73,3 +74,12 @@ def test_what_is_told_names_size_and_place() -> None:
     assert told.what == "bead"
     assert told.at == pytest.approx((3.0, RADIUS_MM + 2.6))
     assert told.reason == "becomes a bead of 4 mm; drawn 4.10 mm"
+
+
+def test_a_bead_whose_line_is_gone_is_told_and_one_whose_line_moved_moves_along() -> None:
+    moved, gone = Bead(np.array([5.0, 0.4]), 4.0), Bead(np.array([5.0, 30.0]), 4.0)
+    _, (bead,), (said,) = beads_of(LINE, [moved, gone], [], LIMITS)
+    assert bead.at == pytest.approx((5.0, 0.0))
+    assert bead.segment == 0
+    assert said.code == "no-bead"
+    assert "30.0" in said.where

@@ -175,3 +175,16 @@ def test_pictures_show_the_beads(tmp_path: Path) -> None:
     wide_mm = np.ptp(wire.centreline.at(np.linspace(*wire.centreline.domain, 500))[:, 0])
     mm2 = discs * (wide_mm / bare.shape[1]) ** 2
     assert mm2 == pytest.approx(math.pi * (2**2 + 2.5**2), rel=0.4)
+
+
+@pytest.mark.parametrize("level", ["off", "gentle", "bold"])
+def test_beads_lie_on_the_lines_of_a_fitted_drawing(tmp_path: Path, level: str) -> None:
+    config = load_config(necklace(tmp_path, fit=level))
+    drawing, _ = trace(tmp_path / "piece.svg", config)
+    fitted, findings = make_fit(drawing, config)
+    assert len(fitted.beads) + sum(each.code == "no-bead" for each in findings) == 2
+    assert len(fitted.beads) >= 1
+    for bead in fitted.beads:
+        assert bead.segment is not None
+        curve = fitted.drawing.segments[bead.segment].curve
+        assert np.linalg.norm(curve.sampled(0.01) - bead.at, axis=1).min() < 0.02

@@ -23,9 +23,9 @@ from wrapit.decomposition.solvers import (
     more_thorough,
     source_of_alternatives,
 )
-from wrapit.decomposition.symmetry import mirror_images
 from wrapit.decomposition.trails import trails_of
 from wrapit.drawing.model import Drawing
+from wrapit.drawing.reflection import mirror_images
 from wrapit.errors import ConfigError, DecompositionError, Finding
 
 # An energy that exceeds its lower bound by less than this share meets it.

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wrapit.fit.sketch import Sketch
+from wrapit.fit.sketch import STEP_MM, Sketch
 from wrapit.geometry import FloatArray
 
 if TYPE_CHECKING:
     import shapely
 
-# How finely lines become chains of points, and how exactly the largest circle inside is found: both far below
-# a wire's thickness. Half of either changes no circle of the corpus by more than 0.01 mm.
-STEP_MM = 0.1
+# How exactly the largest circle inside is found.
 _CIRCLE_MM = 0.01
 # A place is on a boundary within rounding.
 _ON_MM = 1e-6
@@ -45,7 +43,7 @@ def faces_of(sketch: Sketch) -> Faces:
 
     numbers = sorted(sketch.lines)
     points = [sketch.lines[number].curve.sampled(STEP_MM) for number in numbers]
-    polygons = list(shapely.polygonize([shapely.LineString(each) for each in points]).geoms)
+    polygons = list(shapely.polygonize([sketch.lines[number].shape for number in numbers]).geoms)
     middles = shapely.points([_inner_place(each) for each in points])
     if not polygons:
         return Faces((), frozenset(numbers))

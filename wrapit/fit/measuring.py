@@ -7,7 +7,6 @@ from typing import Final
 
 import numpy as np
 
-from wrapit.drawing.model import Drawing
 from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.model import Costs, Limits, Measures
 from wrapit.fit.sketch import Sketch
@@ -93,8 +92,3 @@ def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits)
         else:
             left_out += length
     return Costs(seen / outer if outer else 1.0, left_out / whole, deviation_mm)
-
-
-def unchanged(drawing: Drawing, sketch: Sketch) -> bool:
-    """Whether a sketch still is the drawing that it was made of."""
-    return not sketch.removed and len(drawing.segments) == len(sketch.lines)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from wrapit.config import Config
-from wrapit.drawing.model import Removal
 from wrapit.errors import ConfigError
-from wrapit.fit.sketch import Line, Sketch
+from wrapit.fit.sketch import Sketch
 
 _HELP = "the grey numbers of drawing.svg are those of the drawing as it was read"
 
@@ -31,12 +30,5 @@ def without_dropped(sketch: Sketch, config: Config) -> Sketch:
         raise ConfigError("nothing would be left of the drawing", "drop", "keep at least one segment")
     if not dropped:
         return sketch
-    told = [dropping(sketch.lines[number], "as the config says") for number in dropped]
+    told = [sketch.lines[number].told("dropped", "as the config says") for number in dropped]
     return sketch.changed(dropped, told=told)
-
-
-def dropping(line: Line, reason: str) -> Removal:
-    """What is told of a line that is left out: its middle, its length, and why."""
-    points = line.curve.sampled(0.1)
-    x, y = points[len(points) // 2]
-    return Removal("dropped", (float(x), float(y)), line.curve.length, reason)

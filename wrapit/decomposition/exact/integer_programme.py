@@ -10,13 +10,13 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
-from wrapit.decomposition.exact.highs import Name, Optimum, Programme
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
 from wrapit.decomposition.local_moves.matching_state import descended
 from wrapit.decomposition.model import NO_MATE, half_edges, ordered
 from wrapit.decomposition.problem import CLOSE, Answer, Problem
 from wrapit.decomposition.symmetry import mirrored_junctions
+from wrapit.highs import Name, Optimum, Programme
 
 # Up to this degree every three half-edges at a junction have their odd-set inequality from the start. On
 # 145 graphs it makes no difference to what is proven; 0 to 10 take the same time to 10 %, 13 and more a

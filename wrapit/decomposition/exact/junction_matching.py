@@ -211,7 +211,7 @@ class LocalCosts:
 
     def _by_integers(self, ends: tuple[int, ...]) -> tuple[float, Matching]:
         """The best matching where too many segments meet for listing."""
-        from wrapit.decomposition.exact.highs import Programme
+        from wrapit.highs import Programme
 
         programme = Programme()
         base = sum(self.free[h] for h in ends)

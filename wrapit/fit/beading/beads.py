@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from wrapit.drawing.model import Removal
-from wrapit.fit.faces import STEP_MM, Face, faces_of
+from wrapit.fit.faces import Face, faces_of
 from wrapit.fit.model import Bead, Limits
-from wrapit.fit.sketch import Arm, Line, Sketch
+from wrapit.fit.sketch import STEP_MM, Arm, Line, Sketch
 from wrapit.geometry import BezierChain, FloatArray, joined, straight
 from wrapit.geometry.disjoint_sets import Sets
 

@@ -10,9 +10,8 @@ import numpy as np
 from wrapit.drawing.model import Dot, Removal
 from wrapit.errors import Finding
 from wrapit.fit.beading.beads import ALIKE_MM, SMALLEST_MM, STEP_OF_SIZES_MM, alike, size_of
-from wrapit.fit.faces import STEP_MM
 from wrapit.fit.model import Bead, Limits
-from wrapit.fit.sketch import Sketch
+from wrapit.fit.sketch import STEP_MM, Sketch
 
 # Between bead and wire at most, so that binding wire holds the one to the other and doesn't bridge a gap.
 REACH_MM = 1.0

@@ -48,8 +48,8 @@ class Programme:
         """A row; names without a column count as zero."""
         self.rows.append((coefficients, low, high))
 
-    def solve(self, node_limit: int) -> Optimum:
-        """The optimum, or what is known of it after so many nodes of branch and bound."""
+    def solve(self, node_limit: int, gap: float = 0.0) -> Optimum:
+        """The optimum (within a share `gap` of it), or what is known of it after so many nodes."""
         if not self.columns:
             return Optimum({}, 0.0, 0, all(low <= 0 <= high for _, low, high in self.rows))
         from scipy.optimize import Bounds, LinearConstraint, milp
@@ -71,7 +71,7 @@ class Programme:
                 constraints=LinearConstraint(
                     matrix, [low for _, low, _ in self.rows], [high for _, _, high in self.rows]
                 ),
-                options={"disp": False, "mip_rel_gap": 0.0, "node_limit": node_limit},
+                options={"disp": False, "mip_rel_gap": gap, "node_limit": node_limit},
             )
         infeasible = outcome.status == 2
         values = None

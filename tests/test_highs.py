@@ -9,11 +9,11 @@ import pytest
 
 from tests.bench.graphs import random_multigraph
 from wrapit.decomposition.exact.branch_and_bound import certified
-from wrapit.decomposition.exact.highs import silent_stdout
 from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import pieces
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
+from wrapit.highs import silent_stdout
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
 BUDGET = 2_000_000

@@ -1,0 +1,94 @@
+"""Mirror symmetry of a drawing: which segments are images of one another."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+
+from wrapit.drawing.model import Drawing
+from wrapit.geometry import BezierChain, FloatArray, locked
+from wrapit.geometry.polyline import evenly
+
+Direction = Literal["auto", "vertical", "horizontal"]
+
+NO_IMAGE: Final = -1
+"""Of half-edges without a mirror image."""
+
+# When two segments are images of one another: points spread evenly along them, and how far apart the points
+# may be, as a share of the longest side, since hand-drawn halves differ. On 30 icons the same 15 are
+# mirrored throughout from 0.02 to 0.052; at 0.01 two of them are lost, at 0.08 a fish is taken for
+# mirrored. From 5 to 17 points 282 or 283 segments find an image: nothing hangs on their number.
+_TOLERANCE = 0.04
+_PARTS = 9
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """A mirror line through `point` (2,) at `angle_rad` to the x axis."""
+
+    point: FloatArray
+    angle_rad: float
+
+    def mirrored(self, points: FloatArray) -> FloatArray:
+        """The mirror image of points (…, 2)."""
+        c, s = math.cos(2 * self.angle_rad), math.sin(2 * self.angle_rad)
+        return self.point + (points - self.point) @ np.array([[c, s], [s, -c]])
+
+
+def mirror_images(drawing: Drawing, direction: Direction) -> tuple[int, ...]:
+    """For each half-edge the one that is its mirror image, NO_IMAGE where there is none.
+
+    The axis runs through the centre of the lines; `auto` takes the angle at which most of the
+    drawing has an image.
+    """
+    match direction:
+        case "vertical":
+            angles = [math.pi / 2]
+        case "horizontal":
+            angles = [0.0]
+        case "auto":
+            angles = [math.pi / 2, *(math.radians(degrees) for degrees in range(180) if degrees != 90)]
+    low, high = drawing.bounds_mm
+    curves = [segment.curve for segment in drawing.segments]
+    return images_of(curves, angles, float(np.max(high - low)))[0]
+
+
+def images_of(
+    curves: Sequence[BezierChain], angles_rad: Sequence[float], across_mm: float
+) -> tuple[tuple[int, ...], float]:
+    """For each half-edge of curves the mirror image at the best of some angles, and what share has one.
+
+    The axis runs through the centre of the lines; `across_mm` is their longest side.
+    """
+    lines = np.array([_evenly(curve.sampled(0.2)) for curve in curves])
+    weights = np.array([curve.length for curve in curves])
+    centre = np.average(lines.mean(axis=1), axis=0, weights=weights)
+    tolerance_mm = _TOLERANCE * across_mm
+    found = [_images(lines, Axis(locked(centre), angle), tolerance_mm) for angle in angles_rad]
+    covered = [sum(weights[e] for e in range(len(weights)) if images[2 * e] != NO_IMAGE) for images in found]
+    best = int(np.argmax(covered))
+    return found[best], float(covered[best] / weights.sum())
+
+
+def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ...]:
+    """Segments are images where points spread along them are; each has one at most."""
+    images = axis.mirrored(lines)
+    same = np.abs(images[:, None] - lines[None]).max(axis=(2, 3))
+    turned = np.abs(images[:, None] - lines[None, :, ::-1]).max(axis=(2, 3))
+    distance = np.minimum(same, turned)
+    nearest = distance.argmin(axis=1)
+    mirror = [NO_IMAGE] * (2 * len(lines))
+    for e, f in enumerate(nearest.tolist()):
+        if nearest[f] == e and distance[e, f] <= tolerance_mm:
+            flip = int(turned[e, f] < same[e, f])
+            mirror[2 * e], mirror[2 * e + 1] = 2 * f + flip, 2 * f + 1 - flip
+    return tuple(mirror)
+
+
+def _evenly(points: FloatArray) -> FloatArray:
+    """Points (9, 2) at even distances along a polyline."""
+    return evenly(points, _PARTS)

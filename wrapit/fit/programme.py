@@ -1,0 +1,266 @@
+"""Which lines to leave out and which nodes to merge: an integer programme over a sketch.
+
+Unknowns: for each line whether it is left out, for each short one whether its nodes become one, for each
+pair of lines at a node whether they become one line because all others there go, for each node whether it is
+odd. Costs: what leaves the eye, what moves, and half a wire for each odd node.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from wrapit.fit.faces import Faces
+from wrapit.fit.merging import straight_on
+from wrapit.fit.model import Limits
+from wrapit.fit.sketch import Sketch
+from wrapit.geometry.disjoint_sets import Sets
+from wrapit.highs import Name, Programme
+
+# What it costs to leave a line too short, or a face too small, in mm of line: rather than half the picture.
+_TOO_SHORT: Final = 30.0
+_TOO_SMALL: Final = 60.0
+# A line that breaks off amid its course costs so many mm, as much as it would take to draw the eye on; and
+# more where lines are worth more.
+_BROKEN_MM: Final = 8.0
+# Odd nodes are told from even ones by odd-set inequalities, 2^(k-1) of them; above so many arms by counting.
+_MOST_ARMS: Final = 6
+# A line that comes to end in the air, where it met others before, swings: it costs so many mm.
+_LOOSE_MM: Final = 5.0
+# The choice is within this share of the cheapest: less than any eye tells.
+_GAP: Final = 1e-4
+# Rounds of inequalities that keep the sketch in one piece; each cuts off at least one way to part it.
+_ROUNDS: Final = 40
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What a wire less is worth, in mm of line inside the drawing; `nodes` allowed to branch and bound."""
+
+    wire_mm: float
+    nodes: int = 2000
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Lines left out, short lines whose nodes become one, small faces that close up; what is left undone."""
+
+    dropped: frozenset[int]
+    merged: frozenset[int]
+    unmet: int
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """A sketch with all that the choice depends on.
+
+    `mergeable` are short lines whose nodes may become one, and what that costs the eye; `kept` are lines that
+    stay; `pairs` mirror images.
+    """
+
+    sketch: Sketch
+    faces: Faces
+    worth: Mapping[int, float]
+    limits: Limits
+    mergeable: Mapping[int, float]
+    kept: frozenset[int]
+    pairs: Mapping[int, int]
+    weights: Weights
+
+
+def choose(task: Task) -> Choice:
+    """The cheapest choice; the best found within the nodes allowed where a drawing is large."""
+    programme = Programme()
+    _add_lines(programme, task)
+    _add_lengths(programme, task)
+    _add_faces(programme, task)
+    _add_parity(programme, task)
+    _add_breaks(programme, task)
+    _add_loose_ends(programme, task)
+    _add_likeness(programme, task)
+    _add_leads(programme, task)
+    for _ in range(_ROUNDS):
+        values = programme.solve(task.weights.nodes, _GAP).values
+        if values is None:
+            return Choice(frozenset(), frozenset(), len(task.sketch.lines))
+        dropped = {n for n in task.sketch.lines if values["out", n] > 0.5}
+        apart = list(_parted(task.sketch, dropped))
+        if not apart:
+            break
+        for part in apart:
+            _add_hold(programme, task, part)
+    else:
+        return Choice(frozenset(), frozenset(), len(task.sketch.lines))
+    merged = {n for n in task.mergeable if values["one", n] > 0.5 and n not in dropped}
+    unmet = sum(value > 0.5 for name, value in values.items() if name[0] == "unmet")
+    return Choice(frozenset(dropped), frozenset(merged), unmet)
+
+
+def _add_lines(programme: Programme, task: Task) -> None:
+    for n in sorted(task.sketch.lines):
+        programme.add_column(("out", n), task.worth[n])
+        if n in task.kept:
+            programme.add_row({("out", n): 1.0}, high=0.0)
+        if n in task.mergeable:
+            programme.add_column(("one", n), task.mergeable[n])
+            programme.add_row({("out", n): 1.0, ("one", n): 1.0}, high=1.0)
+    programme.add_row({("out", n): 1.0 for n in task.sketch.lines}, high=len(task.sketch.lines) - 1.0)
+
+
+def _add_lengths(programme: Programme, task: Task) -> None:
+    """Each short line goes, becomes a node, or grows: by half a merged neighbour, by one that it joins."""
+    sketch, least_mm = task.sketch, task.limits.shortest_mm
+    for n, line in sorted(sketch.lines.items()):
+        length_mm = line.curve.length
+        if length_mm >= least_mm:
+            continue
+        short = least_mm - length_mm
+        row: dict[Name, float] = {("out", n): short, ("one", n): short, ("unmet", n): short}
+        programme.add_column(("unmet", n), _TOO_SHORT)
+        for node in {line.start, line.end}:
+            for other, gain_mm in _growth(programme, task, n, node):
+                row[other] = row.get(other, 0.0) + gain_mm
+        programme.add_row(row, low=short)
+
+
+def _growth(programme: Programme, task: Task, n: int, node: int) -> Iterator[tuple[Name, float]]:
+    sketch = task.sketch
+    arms = {arm[0] for arm in sketch.arms[node]} - {n}
+    for other in sorted(arms):
+        if other in task.mergeable:
+            yield ("one", other), sketch.lines[other].curve.length / 2
+        name: Name = ("join", node, min(n, other), max(n, other))
+        programme.add_column(name, 0.0, whole=False)
+        for rest in sorted(arms - {other}):
+            programme.add_row({name: 1.0, ("out", rest): -1.0}, high=0.0)
+        for own in (n, other):
+            programme.add_row({name: 1.0, ("out", own): 1.0}, high=1.0)
+        if sketch.lines[other].is_ring:
+            programme.add_row({name: 1.0}, high=0.0)
+        yield name, sketch.lines[other].curve.length
+
+
+def _add_faces(programme: Programme, task: Task) -> None:
+    """Of the lines about a face without room, one goes at least, or all but one become a node."""
+    for index, face in enumerate(task.faces.faces):
+        if face.inside_mm >= needed_mm(task.sketch, face.lines, task.limits):
+            continue
+        programme.add_column(("unmet", "face", index), _TOO_SMALL)
+        row: dict[Name, float] = {("out", n): 1.0 for n in face.lines}
+        programme.add_row({**row, ("unmet", "face", index): 1.0}, low=1.0)
+
+
+def needed_mm(sketch: Sketch, lines: frozenset[int], limits: Limits) -> float:
+    """How wide a face has to be inside: a ring of one line takes a post of the jig."""
+    alone = len(lines) == 1 and all(sketch.lines[n].is_ring for n in lines)
+    return limits.ring_mm if alone else limits.room_mm
+
+
+def _add_parity(programme: Programme, task: Task) -> None:
+    """Half a wire for each odd node; between merged nodes two odd ones cancel out."""
+    cost = task.weights.wire_mm / 2
+    for n in sorted(task.mergeable):
+        programme.add_column(("even", n), 0.0)
+        programme.add_row({("even", n): 1.0, ("one", n): -1.0}, high=0.0)
+    for node, arms in sorted(task.sketch.arms.items()):
+        single = [n for n, _ in arms if not task.sketch.lines[n].is_ring]
+        there = [(("out", n), -1.0) for n in single]
+        there += [(("even", n), 1.0) for n in single if n in task.mergeable]
+        odd: Name = ("odd", node)
+        programme.add_column(odd, cost, whole=False)
+        if len(there) <= _MOST_ARMS:
+            _add_odd_sets(programme, odd, [name for name, _ in there], len(single) % 2)
+            continue
+        # Arms that are there + even ones = 2 · (halves) + odd.
+        halves: list[Name] = [("half", node, k) for k in range(len(there) // 2)]
+        for half in halves:
+            programme.add_column(half, 0.0)
+        row: dict[Name, float] = {name: -sign for name, sign in there}
+        row |= dict.fromkeys(halves, 2.0)
+        programme.add_row({**row, odd: 1.0}, low=len(single), high=len(single))
+
+
+def _add_odd_sets(programme: Programme, odd: Name, names: list[Name], base: int) -> None:
+    """odd = 1 wherever base + Σ names is odd: each 0-1 point of that kind is cut off unless odd is 1."""
+    for size in range(len(names) + 1):
+        if (base + size) % 2 == 0:
+            continue
+        for ones in itertools.combinations(names, size):
+            row: dict[Name, float] = {name: -1.0 if name in ones else 1.0 for name in names}
+            programme.add_row({**row, odd: 1.0}, low=1.0 - size)
+
+
+def _add_breaks(programme: Programme, task: Task) -> None:
+    """Of two lines that go straight on into one another both stay or both go, or the course is broken.
+
+    One that ends loose may go: the course is shorter then.
+    """
+    loose = {arms[0][0] for arms in task.sketch.arms.values() if len(arms) == 1}
+    for n, line in sorted(task.sketch.lines.items()):
+        for arm in ((n, False), (n, True)):
+            other = straight_on(task.sketch, arm)
+            if other is None or other[0] <= n or {n, other[0]} & loose:
+                continue
+            node = line.end if arm[1] else line.start
+            broken: Name = ("broken", node, n, other[0])
+            seen = min(task.worth[m] / task.sketch.lines[m].curve.length for m in (n, other[0]))
+            programme.add_column(broken, _BROKEN_MM * max(1.0, seen), whole=False)
+            for sign in (1.0, -1.0):
+                programme.add_row({broken: 1.0, ("out", n): -sign, ("out", other[0]): sign}, low=0.0)
+
+
+def _add_loose_ends(programme: Programme, task: Task) -> None:
+    """A node is loose where one of its lines is there and no other."""
+    for node, arms in sorted(task.sketch.arms.items()):
+        numbers = sorted({n for n, _ in arms})
+        if len(arms) < 2 or len(numbers) < len(arms):
+            continue
+        loose: Name = ("loose", node)
+        programme.add_column(loose, _LOOSE_MM, whole=False)
+        for n in numbers:
+            row: dict[Name, float] = {("out", other): -1.0 for other in numbers if other != n}
+            programme.add_row({**row, ("out", n): 1.0, loose: 1.0}, low=2.0 - len(numbers))
+
+
+def _add_likeness(programme: Programme, task: Task) -> None:
+    for n, image in sorted(task.pairs.items()):
+        if n < image:
+            programme.add_row({("out", n): 1.0, ("out", image): -1.0}, low=0.0, high=0.0)
+            programme.add_row({("one", n): 1.0, ("one", image): -1.0}, low=0.0, high=0.0)
+
+
+def _parted(sketch: Sketch, dropped: set[int]) -> Iterator[frozenset[int]]:
+    """Nodes of the parts that what is left falls into, but for the largest part."""
+    parts = Sets()
+    length_mm: dict[int, float] = {}
+    left = {n: line for n, line in sketch.lines.items() if n not in dropped}
+    for line in left.values():
+        parts.merge(line.start, line.end)
+    for line in left.values():
+        root = parts.find(line.start)
+        length_mm[root] = length_mm.get(root, 0.0) + line.curve.length
+    whole = max(length_mm, key=lambda root: (length_mm[root], -root), default=None)
+    for root in sorted(length_mm):
+        if root != whole:
+            yield frozenset(node for node in sketch.nodes if parts.find(node) == root)
+
+
+def _add_leads(programme: Programme, task: Task) -> None:
+    """Where a single line leads to a part, the part goes with it: the lesser of its two sides."""
+    for n in sorted(task.sketch.lines):
+        for part in _parted(task.sketch, {n}):
+            for other, line in sorted(task.sketch.lines.items()):
+                if line.start in part and line.end in part:
+                    programme.add_row({("out", n): 1.0, ("out", other): -1.0}, high=0.0)
+
+
+def _add_hold(programme: Programme, task: Task, part: frozenset[int]) -> None:
+    """A part stays joined to the rest by a line, or all of it goes."""
+    lines = task.sketch.lines
+    leading = [n for n, line in lines.items() if (line.start in part) != (line.end in part)]
+    for n, line in sorted(lines.items()):
+        if line.start in part and line.end in part:
+            row: dict[Name, float] = {("out", each): -1.0 for each in leading}
+            programme.add_row({**row, ("out", n): 1.0}, low=1.0 - len(leading))

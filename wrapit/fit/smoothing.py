@@ -1,0 +1,85 @@
+"""Bends that are tighter than the wire takes are widened, line by line."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from wrapit.drawing.model import Removal
+from wrapit.fit.measuring import tight_bends
+from wrapit.fit.merging import is_planar, straight_on
+from wrapit.fit.model import Limits
+from wrapit.fit.sketch import Line, Sketch
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.bounded import Bounded, bounded
+from wrapit.geometry.steering import Held
+
+# How an end may be held where it can't be as firmly as it should.
+_LOOSER: Final[dict[Held, Held]] = {"pinned": "placed", "placed": "placed", "free": "free"}
+
+
+def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
+    """The sketch with each line no tighter than the least radius, where its ends allow that.
+
+    A line that goes straight on into another keeps its direction there, one that ends on others its place; a
+    loose end may move. A line that can't be widened without crossing another stays.
+    """
+    for n, line in sorted(sketch.lines.items()):
+        if not tight_bends(line.curve, limits.radius_mm):
+            continue
+        for start, end in _ways(sketch, n):
+            found = _widened(line, limits, start, end, closed=_is_alone(sketch, n))
+            if found is None:
+                continue
+            new = Line(line.start, line.end, found.curve, line.origin)
+            nodes = {line.start: found.curve.start, line.end: found.curve.end}
+            result = sketch.changed(lines={n: new}, nodes=nodes, told=_told(line, found, limits))
+            if is_planar(result, {n: new}, sketch):
+                sketch = result
+                break
+    return sketch
+
+
+def _widened(line: Line, limits: Limits, start: Held, end: Held, *, closed: bool) -> Bounded | None:
+    if closed:
+        return bounded(line.curve, limits.radius_mm, "free", "free", closed=True)
+    return bounded(line.curve, limits.radius_mm, start, end)
+
+
+def _is_alone(sketch: Sketch, n: int) -> bool:
+    """Whether a line is a ring that nothing else meets."""
+    return sketch.lines[n].is_ring and len(sketch.arms[sketch.lines[n].start]) == 2
+
+
+def _ways(sketch: Sketch, n: int) -> list[tuple[Held, Held]]:
+    """How a line's ends are held, the firmest first."""
+    firm = _held(sketch, n, last=False), _held(sketch, n, last=True)
+    ways = [
+        firm,
+        (firm[0], _LOOSER[firm[1]]),
+        (_LOOSER[firm[0]], firm[1]),
+        (_LOOSER[firm[0]], _LOOSER[firm[1]]),
+    ]
+    return list(dict.fromkeys(ways))
+
+
+def _held(sketch: Sketch, n: int, *, last: bool) -> Held:
+    line = sketch.lines[n]
+    if len(sketch.arms[line.end if last else line.start]) == 1:
+        return "free"
+    return "placed" if straight_on(sketch, (n, last)) is None else "pinned"
+
+
+def _told(line: Line, found: Bounded, limits: Limits) -> tuple[Removal, ...]:
+    told = []
+    for a, b in found.spans:
+        length = line.curve.length
+        x, y = piece(line.curve, 0.0, ((a + b) / 2) % length or length).end
+        told.append(
+            Removal(
+                "faired",
+                (float(x), float(y)),
+                b - a,
+                f"a bend tighter than {limits.radius_mm:.2f} mm; moved by {found.deviation:.2f} mm at most",
+            )
+        )
+    return tuple(told)
