@@ -51,6 +51,7 @@ DRAWING: Final = {
     "light-on-dark": Saying("light lines on dark ground were traced", NOTHING),
     "markers-left-out": Saying("arrowheads are left out", "draw them as lines of their own"),
     "masked": Saying("a mask of an SVG file isn't read: all of the line is taken", "release the mask"),
+    "no-bead": Saying("a dot of the drawing becomes no bead", "draw it beside a line, or as a ring on one"),
     "other-file": Saying(
         "an SVG file refers to another file, which is never loaded", "embed it, or remove it"
     ),
@@ -116,6 +117,12 @@ WIRES: Final = {
 """How the drawing became wires."""
 
 JIG: Final = {
+    "bead-below-plate": Saying(
+        "a bead reaches through the plate", "lay the jig on strips, or raise `jig.base_thickness`"
+    ),
+    "bead-without-seat": Saying(
+        "a bead has no seat: something else is too near", "put it on when the wire is out, or build larger"
+    ),
     "form": Saying("wires of one shape share a form", "turn mirrored ones over after bending"),
     "hemmed": Saying("walls stand on both sides of a wire", "press the wire in with a rounded stick"),
     "jig-left-out": Saying(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
     from wrapit.errors import Finding
-    from wrapit.fit.model import Fitted
+    from wrapit.fit.model import Bead, Fitted
     from wrapit.jig.model import JigSet
     from wrapit.pipeline.build import Build
     from wrapit.pipeline.work import Stage
@@ -75,12 +75,12 @@ def decompose(drawing: Drawing, config: Config | None = None) -> tuple[Solution,
 
 
 def draw_wires(
-    solution: Solution, config: Config | None = None
+    solution: Solution, config: Config | None = None, beads: Sequence[Bead] = ()
 ) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
-    """The wires as exact curves, with turns, lengths and ties; longest first. Raises WireError."""
+    """The wires as exact curves, with turns, lengths, ties and beads; longest first. Raises WireError."""
     from wrapit.wires.stage import draw_wires as run
 
-    return run(solution, config if config is not None else _usual())
+    return run(solution, config if config is not None else _usual(), beads)
 
 
 def build_jigs(wires: Sequence[Wire], config: Config | None = None) -> tuple[JigSet, tuple[Finding, ...]]:

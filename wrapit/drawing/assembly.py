@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from wrapit.drawing.changes import Change
-from wrapit.drawing.model import Drawing, Junction, PixelFrame, Removal, Segment
+from wrapit.drawing.model import Dot, Drawing, Junction, PixelFrame, Removal, Segment
+from wrapit.drawing.spots import Spot
 from wrapit.geometry import BezierChain, FloatArray
 
 
@@ -68,6 +70,7 @@ def assemble(
     width: float | None,
     changes: list[Change],
     pixel_frame: bool,
+    spots: Sequence[Spot] = (),
 ) -> Drawing:
     """The drawing: junctions from top to bottom and left to right, segments by their junctions."""
     used = sorted({node for piece in pieces for node in (piece.start, piece.end)})
@@ -93,9 +96,15 @@ def assemble(
         None if width is None else width * place.scale,
         PixelFrame(place.scale, (float(place.offset[0]), float(place.offset[1]))) if pixel_frame else None,
         tuple(_removal(change, place) for change in changes),
+        tuple(_dot(spot, place) for spot in spots),
     )
 
 
 def _removal(change: Change, place: Placement) -> Removal:
     x, y = place.points(np.array(change.at_px))
     return Removal(change.what, (float(x), float(y)), change.length_px * place.scale, change.reason)
+
+
+def _dot(spot: Spot, place: Placement) -> Dot:
+    x, y = place.points(np.array(spot.at_px))
+    return Dot((float(x), float(y)), spot.diameter_px * place.scale)

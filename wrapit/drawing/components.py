@@ -10,6 +10,7 @@ import numpy as np
 
 from wrapit.drawing.assembly import Piece
 from wrapit.drawing.changes import Change, Notice
+from wrapit.drawing.spots import Spot, spots_of_outlines
 from wrapit.geometry import BezierChain, FloatArray, IntArray, straight
 from wrapit.geometry.bezier import evaluate, split
 from wrapit.geometry.disjoint_sets import Sets
@@ -31,6 +32,7 @@ class Connected:
     pieces: list[Piece]
     changes: list[Change] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
+    spots: list[Spot] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,7 @@ def _leave_out(result: Connected, group: list[Piece], named: bool) -> None:
     length = sum(piece.curve.length for piece in group)
     at = (float(middle[0]), float(middle[1]))
     result.changes.append(Change("piece", at, length, "not connected to the largest piece"))
+    result.spots += spots_of_outlines([piece.curve.points for piece in group] if len(group) == 1 else [])
     if named:
         result.notices.append(
             Notice(

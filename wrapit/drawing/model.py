@@ -45,6 +45,14 @@ class Removal:
 
 
 @dataclass(frozen=True)
+class Dot:
+    """A dot, or a round ring that touches nothing: no line of the drawing, but a bead may stand for it."""
+
+    at: tuple[float, float]
+    diameter_mm: float
+
+
+@dataclass(frozen=True)
 class PixelFrame:
     """Where the bitmap lies: mm of the centre of pixel (0, 0); y_mm falls as y_px grows."""
 
@@ -64,6 +72,8 @@ class Drawing:
     stroke_width_mm: float | None = None
     pixel_frame: PixelFrame | None = None
     removed: tuple[Removal, ...] = field(default=())
+    dots: tuple[Dot, ...] = ()
+    """Of what was left out, what is round; files don't hold it."""
 
     def __post_init__(self) -> None:
         for index, junction in enumerate(self.junctions):

@@ -12,6 +12,7 @@ from wrapit.errors import ExportError
 from wrapit.geometry import FloatArray, Region
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.bspline import chain_of
+from wrapit.geometry.outlines.loops import circle
 from wrapit.wires.model import Wire
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ SUPERSAMPLING = 3
 PAPER, PLATE, PLATE_EDGE, HOLE = (250, 249, 246), (224, 224, 222), (188, 188, 186), (120, 120, 118)
 WALL, WALL_EDGE, SHADOW = (190, 193, 198), (150, 153, 158), (196, 196, 194)
 TAUT, TAUT_MM = (40, 44, 52), 0.15
+BEAD, BEAD_EDGE = (168, 196, 200), (84, 112, 118)
 MARGIN_MM = 3.0
 # A wire is painted in pieces this short, which can't cross themselves, each with points every 2 px.
 PIECE_MM, PIECE_POINTS = 1.5, 24
@@ -54,6 +56,7 @@ def write_preview(
     _draw_walls(image, canvas, view, walls)
     for wire in wires:
         _draw_wire(canvas, view, wire)
+        _draw_beads(canvas, view, wire)
     for course in taut:
         canvas.line(view.px(course), fill=TAUT, width=round(TAUT_MM * view.px_per_mm), joint="curve")
     small = image.resize(
@@ -120,6 +123,15 @@ def _draw_wire(canvas: ImageDraw.ImageDraw, view: _View, wire: Wire) -> None:
     _draw_span(canvas, view, wire, lengths, 0.0, lengths.total_mm)
     for start, end in _raised_spans(wire):
         _draw_span(canvas, view, wire, lengths, start, end)
+
+
+def _draw_beads(canvas: ImageDraw.ImageDraw, view: _View, wire: Wire) -> None:
+    """Each bead as a disc: it hides the wire that runs through it."""
+    for bead, place in zip(wire.beads, wire.bead_places, strict=True):
+        outline = circle((float(place[0]), float(place[1])), bead.diameter_mm / 2)
+        points = view.px(outline.sampled(0.01))
+        canvas.polygon(points, fill=BEAD)
+        canvas.line([*points, points[0]], fill=BEAD_EDGE, width=SUPERSAMPLING)
 
 
 def _raised_spans(wire: Wire) -> list[tuple[float, float]]:

@@ -7,11 +7,13 @@ from typing import Final
 from wrapit.config import Config
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
+from wrapit.fit.beading.bead_places import beads_of, in_segments
+from wrapit.fit.beading.beads import beaded
 from wrapit.fit.choosing import cleared
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures
-from wrapit.fit.model import Fitted, Level, Limits
+from wrapit.fit.model import Bead, Fitted, Level, Limits
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.smoothing import smoothed
 from wrapit.fit.unmet import unmet
@@ -31,10 +33,16 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
     before = Sketch.of(drawing)
     limits = limits_of(config, "gentle" if config.fit == "off" else config.fit)
     after = without_dropped(before, config)
+    beads: tuple[Bead, ...] = ()
     findings: tuple[Finding, ...] = ()
+    if config.beads == "auto":
+        after, beads = beaded(after, limits, config.keep, [dot.at for dot in drawing.dots])
     if config.fit != "off":
         after = _fit(after, limits, config.fit, frozenset(config.keep))
         findings = unmet(after, limits)
+    if config.beads == "auto":
+        after, beads, said = beads_of(after, beads, drawing.dots, limits)
+        findings = (*findings, *said)
     made, origins = (
         after.drawing(drawing)
         if after.removed
@@ -45,7 +53,7 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
         drawing,
         made,
         origins,
-        (),
+        in_segments(beads, made),
         measures(before, limits, faces),
         measures(after, limits),
         costs(before, after, faces.outline, limits),

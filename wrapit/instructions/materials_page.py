@@ -7,6 +7,7 @@ from typing import Final, Literal
 
 from wrapit.config import GuideConfig, WireConfig
 from wrapit.instructions.model import Chapter, Difficulty, Material, Page, Step, Tie
+from wrapit.instructions.order.bead_words import beads_table
 from wrapit.jig.bench.model import Bench
 from wrapit.materials import METALS
 from wrapit.pages.model import (
@@ -76,6 +77,7 @@ def materials_page(
     )
     blocks: tuple[Block, ...] = (
         _materials(materials, ring, wire_config, pieces),
+        *beads_table(wires, pieces),
         _cut_list(wires, pieces),
         Points(tuple(_tools(benches))),
         Facts(facts),

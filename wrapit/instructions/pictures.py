@@ -9,11 +9,11 @@ from functools import cached_property
 
 import numpy as np
 
-from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry import BezierChain, FloatArray, joined
 from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
-from wrapit.geometry.outlines.loops import Region, circle
+from wrapit.geometry.outlines.loops import Region, as_chain, circle
 from wrapit.instructions.model import Step, Tie
 from wrapit.jig.bench.from_above import DISC, INK_MM, LINE, bounds_of, framed, ink_of, start_marks, with_room
 from wrapit.jig.bench.model import Bench
@@ -71,7 +71,8 @@ class Scene:
     def shared(self) -> dict[str, tuple[Shape, ...]]:
         """Its shapes that many pictures show: plate and walls as one, and each wire."""
         wires: dict[str, tuple[Shape, ...]] = {
-            self.wire_key(wire.number): (Shape(chain_of(wire.centreline), "wire"),) for wire in self.wires
+            self.wire_key(wire.number): (Shape(chain_of(wire.centreline), "wire"), *_beads(wire))
+            for wire in self.wires
         }
         if self.bench is None:
             return wires
@@ -89,6 +90,13 @@ class Scene:
     def picture(self, shapes: Iterable[Shape | Shared], marks: Iterable[Mark] = ()) -> Picture:
         """A picture in this scene."""
         return with_room(Picture(self.low, self.high, self.text_mm, tuple(shapes), tuple(marks)))
+
+
+def _beads(wire: Wire) -> Iterator[Shape]:
+    """The rims of a wire's beads, drawn as the wire is."""
+    for bead, (x, y) in zip(wire.beads, wire.bead_places.tolist(), strict=True):
+        rim = circle((x, y), (bead.diameter_mm - wire.diameter_mm) / 2)
+        yield Shape(joined(as_chain(edge) for edge in rim.edges), "wire")
 
 
 def step_figure(scene: Scene, step: Step, wire: Wire, earlier: Iterable[int], ties: Sequence[Tie]) -> Figure:

@@ -57,7 +57,7 @@ class Pin:
 
 @dataclass(frozen=True)
 class Seat:
-    """A round pocket in the plate for a bead.
+    """A round pocket in the plate for a bead; `threaded` says that a wire over it runs through the bead.
 
     The post in it is `post_mm` thick (0 is none) and rises `post_height_mm` over the plate.
     """
@@ -68,6 +68,7 @@ class Seat:
     depth_mm: float
     post_mm: float
     post_height_mm: float
+    threaded: bool = False
 
     @property
     def pocket(self) -> Loop:

@@ -10,6 +10,7 @@ from wrapit.config import JigConfig
 from wrapit.errors import Finding
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course, Hold, Hole, Pin, TurnSupport, Wall
+from wrapit.jig.openings.bead_room import bead_obstacles
 from wrapit.jig.openings.holes import hole_obstacles, hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes, pin_obstacles
 from wrapit.jig.support import rough_support, support_by_wire, turn_support
@@ -39,9 +40,13 @@ class WallPlan:
 
 
 def plan_walls(channels: Channels, config: JigConfig, pockets: Any) -> WallPlan:
-    """The walls and pins of these wires; `pockets` (shapely) are kept free for something else."""
+    """The walls and pins of these wires; `pockets` (shapely) are kept free for something else.
+
+    So is the room of the wires' beads.
+    """
     import shapely
 
+    pockets = pockets.union(bead_obstacles(channels.wires, config.clearance))
     holes = start_holes(channels, config)
     rims = hole_rims(holes)
     blocked = hole_obstacles(holes).union(pockets)

@@ -97,7 +97,7 @@ def write_sketch(work: Work, folder: Path) -> Outcome:
     from wrapit.wires.stage import draw_wires
 
     assert work.solution is not None
-    wires, _ = draw_wires(work.solution, work.config)
+    wires, _ = draw_wires(work.solution, work.config, work.beads)
     write_text(folder / "decomposition.svg", decomposition_svg(work.solution, wires))
     return Outcome(files=("decomposition.svg",))
 
@@ -110,6 +110,6 @@ def write_alternatives(work: Work, folder: Path) -> Outcome:
 
     assert work.drawing is not None
     choices = alternatives(work.drawing, work.config.decomposition, work.alternatives)
-    shown = [(choice, draw_wires(choice, work.config)[0]) for choice in choices]
+    shown = [(choice, draw_wires(choice, work.config, work.beads)[0]) for choice in choices]
     write_text(folder / ALTERNATIVES, alternatives_svg(shown))
     return Outcome(files=(ALTERNATIVES,))

@@ -107,8 +107,21 @@ def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
             "max_deviation_from_drawing_mm": _mm(wire.max_deviation_from_drawing_mm),
             "layers": wire.layers,
             "mass_g": round(wire.mass_g, 4),
+            **({"beads": _bead_numbers(wire)} if wire.beads else {}),
         }
         for wire in wires
+    ]
+
+
+def _bead_numbers(wire: Wire) -> list[dict[str, Any]]:
+    """Where along a wire its beads are, threaded or beside it."""
+    return [
+        {
+            "at_mm": _mm(bead.at_mm),
+            "diameter_mm": bead.diameter_mm,
+            "held": "threaded" if bead.threaded else "sewn",
+        }
+        for bead in wire.beads
     ]
 
 

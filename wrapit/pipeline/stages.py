@@ -147,7 +147,7 @@ def _draw_wires(work: Work, folder: Path | None) -> None:
         from wrapit.wires.stage import draw_wires
 
         assert work.solution is not None
-        wires, findings = draw_wires(work.solution, work.config)
+        wires, findings = draw_wires(work.solution, work.config, work.beads)
         blocks: dict[str, Any] = {"wires": wire_numbers(wires)}
         ring, placed = jump_ring(wires, work.solution.decomposition.drawing, work.config)
         if work.config.bail is not None:

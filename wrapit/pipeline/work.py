@@ -18,7 +18,7 @@ from wrapit.pipeline.reads import Keys
 if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
-    from wrapit.fit.model import Fitted
+    from wrapit.fit.model import Bead, Fitted
     from wrapit.jig.made import Made
     from wrapit.wires.model import JumpRing, Wire
 
@@ -78,6 +78,11 @@ class Work:
         """What the stage fit made; None where the config doesn't ask for it."""
         fitted: Fitted | None = self._value("fit")
         return fitted
+
+    @property
+    def beads(self) -> tuple[Bead, ...]:
+        """Beads of the fitted drawing."""
+        return self.fitted.beads if self.fitted is not None else ()
 
     @property
     def solution(self) -> Solution | None:

@@ -41,6 +41,7 @@ def _mirrored(wire: Wire) -> Wire:
         bindings=tuple(
             dataclasses.replace(binding, point=flipped(binding.point)) for binding in wire.bindings
         ),
+        beads=tuple(dataclasses.replace(bead, aside_mm=-bead.aside_mm) for bead in wire.beads),
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Traversal
 from wrapit.geometry import BSpline, FloatArray
+from wrapit.geometry.arclength import ArcLength
 
 # Between a jump ring and the wire it hangs on: it swings, and the kernel sees two solids that don't touch.
 RING_GAP_MM = 0.05
@@ -51,6 +52,23 @@ class Bail:
     end_mm: float
     centre: tuple[float, float]
     inner_diameter_mm: float
+
+
+@dataclass(frozen=True)
+class WireBead:
+    """A bead at a place along a wire, to its left by `aside_mm` (to its right if negative).
+
+    At 0 it is threaded; any other is sewn to the wire with binding wire.
+    """
+
+    at_mm: float
+    diameter_mm: float
+    aside_mm: float = 0.0
+
+    @property
+    def threaded(self) -> bool:
+        """Whether the wire runs through it."""
+        return self.aside_mm == 0
 
 
 @dataclass(frozen=True)
@@ -113,6 +131,8 @@ class Wire:
     """Height of the centreline over the lowest layer, (at_mm, z_mm) smooth between; empty is flat."""
 
     bail: Bail | None = None
+    beads: tuple[WireBead, ...] = ()
+    """In their order along it."""
 
     def heights_mm(self, at_mm: FloatArray) -> FloatArray:
         """Heights (m,) of the centreline over the lowest layer at places (m,) along the wire."""
@@ -127,6 +147,17 @@ class Wire:
     def tail_mm(self) -> float:
         """Spare wire at each end, to hold and to bend down."""
         return (self.cut_length_mm - self.length_mm) / 2
+
+    @property
+    def bead_places(self) -> FloatArray:
+        """The middles of its beads, (n, 2)."""
+        if not self.beads:
+            return np.empty((0, 2))
+        along = ArcLength(self.centreline).parameter(np.array([bead.at_mm for bead in self.beads]))
+        ahead = self.centreline.derivative(along)
+        left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / np.linalg.norm(ahead, axis=1)[:, None]
+        aside = np.array([bead.aside_mm for bead in self.beads])
+        return np.asarray(self.centreline.at(along) + aside[:, None] * left)
 
     @property
     def ends(self) -> FloatArray:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from wrapit.config import Config
@@ -10,6 +12,7 @@ from wrapit.decomposition.model import Solution, Trail
 from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.fit.limits import corner_radius_mm, least_radius_mm
+from wrapit.fit.model import Bead
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.materials import METALS
@@ -18,6 +21,7 @@ from wrapit.wires.centreline import FOLD_RAD, Joined, join
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
 from wrapit.wires.stacking import lay_wires, layers_of
+from wrapit.wires.strung.threading import with_beads
 from wrapit.wires.ties import find_bindings
 from wrapit.wires.turns import find_turns
 
@@ -25,11 +29,13 @@ CURVATURE_STEP_MM = 0.02  # the tightest bends of our drawings are the same with
 MIN_MARGIN_SHARE = 0.15  # of the length, for holding and bending
 
 
-def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
+def draw_wires(
+    solution: Solution, config: Config, beads: Sequence[Bead] = ()
+) -> tuple[tuple[Wire, ...], tuple[Finding, ...]]:
     """Each trail as one exact cubic B-spline with turns, lengths, connections and heights.
 
     Corners tighter than the metal allows, or than a post of the jig, are rounded; findings name bends that
-    can't be made. With a bail, the end of one wire goes on into its loop.
+    can't be made. With a bail, the end of one wire goes on into its loop. Beads are put on the wires.
     """
     drawing, wire = solution.decomposition.drawing, config.wire
     radius_mm, corner_mm = least_radius_mm(config), corner_radius_mm(config)
@@ -71,7 +77,7 @@ def draw_wires(solution: Solution, config: Config) -> tuple[tuple[Wire, ...], tu
                 bail=bails.get(index),
             )
         )
-    return tuple(wires), tuple(findings)
+    return with_beads(wires, beads), tuple(findings)
 
 
 def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from wrapit.drawing.bitmap.page.stage import Page, drawing_alone, is_bright_page
 from wrapit.drawing.bitmap.refusals import is_ruled, refuse_crowd
 from wrapit.drawing.bitmap.skeleton import Skeleton, thin_within
 from wrapit.drawing.changes import Change, Notice
+from wrapit.drawing.spots import Spot, spots_of_ink
 from wrapit.errors import DrawingError
 from wrapit.geometry import FloatArray
 
@@ -49,6 +51,16 @@ class Picture:
     def source(self, points: FloatArray) -> FloatArray:
         """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""
         return points * self.factor + (self.factor - 1) / 2
+
+    @property
+    def dots(self) -> list[Spot]:
+        """Round dots of ink, in working pixels."""
+        return spots_of_ink(self.skeleton.pixels, self.skeleton.pairs, self.skeleton.distance)
+
+    def spots_in_source(self, spots: Sequence[Spot]) -> list[Spot]:
+        """Spots in pixels of the file."""
+        places = [self.source(np.array(spot.at_px)).tolist() for spot in spots]
+        return [Spot((x, y), s.diameter_px * self.factor) for s, (x, y) in zip(spots, places, strict=True)]
 
 
 def read_picture(path: Path, tracing: TracingConfig, *, alone: bool = True) -> Picture:

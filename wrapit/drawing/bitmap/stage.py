@@ -171,6 +171,7 @@ def _drawing(
         width=picture.skeleton.width_px * picture.factor,
         changes=changes,
         pixel_frame=True,
+        spots=picture.spots_in_source([*connected.spots, *picture.dots]),
     )
     findings = [*_about(picture)]
     findings += [_finding(notice, np.array(notice.at_px), where) for notice in picture.notices]

@@ -12,12 +12,14 @@ from wrapit.drawing.changes import Change
 from wrapit.drawing.components import LONGEST_LINK, connect
 from wrapit.drawing.json_file import LARGEST_SIZE_MM
 from wrapit.drawing.model import Drawing
+from wrapit.drawing.spots import Spot, spots_of_outlines
 from wrapit.drawing.svg.cutting import cut_at_tips
 from wrapit.drawing.svg.duplicates import without_coincident
 from wrapit.drawing.svg.hand_doubles import without_hand_doubles
 from wrapit.drawing.svg.planar import Curve, planar
 from wrapit.drawing.svg.programs import SKETCHED
 from wrapit.drawing.svg.remarks import of_fills
+from wrapit.drawing.svg.seen.losses import dots_of
 from wrapit.drawing.svg.seen.told import told
 from wrapit.drawing.svg.strokes import Strokes, read_strokes
 from wrapit.errors import DrawingError, Finding
@@ -80,6 +82,7 @@ def trace_svg(
         width=strokes.width_px if (strokes.width_px or 0) >= _FINEST * size else None,
         changes=[*changes, *connected.changes],
         pixel_frame=False,
+        spots=[*connected.spots, *_left_out(strokes, tracing)],
     )
     findings = list(strokes.findings)
     for notice in connected.notices:
@@ -102,6 +105,13 @@ def trace_svg(
     findings += told(strokes.losses, where.scale, strokes.page.program)
     findings += of_fills(strokes.filled, strokes.solid, tracing.filled, strokes.page.program)
     return drawing, tuple(findings)
+
+
+def _left_out(strokes: Strokes, tracing: TracingConfig) -> list[Spot]:
+    """Dots, and round shapes that are filled and not outlined."""
+    filled = strokes.filled if tracing.filled != "outline" else []
+    outlines = [shape.curves[0].cubics for shape in filled if len(shape.curves) == 1]
+    return [*dots_of(strokes.losses), *spots_of_outlines(outlines)]
 
 
 def _by_hand(pairs: list[tuple[FloatArray, float]], mm_per_px: float) -> Finding:

@@ -11,6 +11,7 @@ import numpy as np
 
 from wrapit.errors import Finding
 from wrapit.instructions.model import Crossing, Step, Tie
+from wrapit.instructions.order.bead_words import sewing_said, threading_said
 from wrapit.instructions.order.move_words import bail_said, heading_of, lead_said, short_said, turn_said
 from wrapit.instructions.order.moves import Move, moves_along
 from wrapit.instructions.order.repeats import Stretch, stretches_of
@@ -176,7 +177,8 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         for binding in wire.bindings
         if binding.junction in laid.ties and within(binding.at_mm)
     ]
-    notes = [*_crossing_notes(wire, crossings)]
+    threaded = threading_said(wire, within)
+    notes = [*sewing_said(wire, within), *_crossing_notes(wire, crossings)]
     if _along(wire, step, _second_runs(wire)):
         notes.append(text("note-doubled"))
     bridges = [run for run, traversal in enumerate(wire.traversals) if traversal.segment in laid.bridges]
@@ -189,7 +191,7 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         notes.append(text("note-ties", places=places, count=len(met)))
     return replace(
         step,
-        texts=(*step.texts, *notes),
+        texts=(*threaded, *step.texts, *notes),
         cautions=tuple(_cautions(laid.findings, within)),
         crossings=crossings,
         ties=tuple(dict.fromkeys(letter for letter, _ in met)),

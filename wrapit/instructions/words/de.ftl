@@ -83,6 +83,9 @@ metal-steel = Stahl
 temper-dead-soft = weich geglüht
 temper-half-hard = halbhart
 temper-hard = hart
+beads-table = Perlen
+beads-head-size = Größe
+beads-head-count = Anzahl
 cut-table = Zuschnitt
 cut-head-wire = Draht
 cut-head-cut = Ablängen
@@ -308,6 +311,12 @@ short-turn = { $angle }° nach { $side ->
 short-run = { $length } gerade
 repeat-pattern = Im Wechsel: { $moves }, je nachdem, wie die Wände führen.
 repeat-times = Mach das insgesamt { $times }-mal hintereinander.
+thread-bead = Fädel zuerst die Perle von { $size } auf Draht { $wire }, und schieb sie bis { $at }, ehe du weiterbiegst.
+bead-at-end = Nur das Drahtende hält sie: wenn das Stück aus der Schablone ist, bieg dieses Ende dicht hinter der Perle zu einer kleinen Öse.
+sew-bead = { $side ->
+    [left] Links
+   *[right] Rechts
+  } davon, bei { $at }, liegt die Perle von { $size }: wenn alle Drähte gebunden sind, binde sie dort mit ein paar Windungen Bindedraht an diesen.
 note-over = Er läuft über { $under } bei { $places }.
 note-doubled = Leg ihn dicht neben den Lauf, der dort schon liegt.
 note-bridge = Dieses Stück ist eine Brücke, die die Zeichnung nicht hat: sie hält das Ganze zusammen.

@@ -84,6 +84,9 @@ metal-steel = steel
 temper-dead-soft = dead soft
 temper-half-hard = half hard
 temper-hard = hard
+beads-table = Beads
+beads-head-size = Size
+beads-head-count = How many
 cut-table = Cut list
 cut-head-wire = Wire
 cut-head-cut = Cut
@@ -309,6 +312,12 @@ short-turn = { $angle }° to the { $side ->
 short-run = straight for { $length }
 repeat-pattern = In turn: { $moves }, each as the walls lead.
 repeat-times = Do that { $times } times in all, one after the other.
+thread-bead = Thread the bead of { $size } onto wire { $wire } first, and slide it up to { $at }, before you bend on.
+bead-at-end = Only the wire’s end holds it: when the piece is out of the jig, turn that end into a small loop close behind the bead.
+sew-bead = On the { $side ->
+    [left] left
+   *[right] right
+  }, at { $at }, lies the bead of { $size }: when all wires are tied, sew it to this one there with a few turns of binding wire.
 note-over = It passes over { $under } at { $places }.
 note-doubled = Lay it close beside the run that lies there already.
 note-bridge = This stretch is a bridge that the drawing doesn’t have: it holds the piece together.

@@ -21,7 +21,7 @@ PLACES = 96
 def same_shapes(wires: Sequence[Wire]) -> tuple[SameShape, ...]:
     """For each wire that has the shape of an earlier one: which, and whether mirrored; from either end.
 
-    Wires differ where one has a bail and the other none.
+    Wires differ where one has a bail and the other none; one with beads has a place of its own, with seats.
     """
     places = [_places(wire) for wire in wires]
     alike: list[SameShape] = []
@@ -45,6 +45,8 @@ def _places(wire: Wire) -> FloatArray:
 
 def _laid_upon(first: Wire, there: FloatArray, wire: Wire, here: FloatArray) -> tuple[bool, bool] | None:
     """Whether the wire lies upon the first turned over, and end for end; None if it never does."""
+    if first.beads or wire.beads:
+        return None
     if abs(first.length_mm - wire.length_mm) > APART_MM or (first.bail is None) != (wire.bail is None):
         return None
     ways = [(False, here), (True, here[::-1])] if first.bail is None else [(False, here)]

@@ -18,6 +18,7 @@ import numpy as np
 from wrapit.config import PegsConfig
 from wrapit.geometry import FloatArray
 from wrapit.jig.channel import SIDES, Channels
+from wrapit.jig.openings.bead_room import bead_obstacles
 from wrapit.jig.pegs.model import Board, Cell, Peg, PegPlan
 from wrapit.wires.model import Turn
 
@@ -57,10 +58,11 @@ def place_pegs(channels: Channels, config: PegsConfig) -> PegPlan:
     low = np.vstack([chain.points.reshape(-1, 2).min(axis=0) for chain in channels.chains]).min(axis=0)
     high = np.vstack([chain.points.reshape(-1, 2).max(axis=0) for chain in channels.chains]).max(axis=0)
     lines = shapely.union_all([shapely.LineString(chain.sampled(0.05)) for chain in channels.chains])
+    beads = bead_obstacles(channels.wires, channels.clearance_mm)
     turns = [_inside(channels, turn) for wire in channels.wires for turn in wire.turns if not turn.stretch]
     best: tuple[float, list[list[_Choice]], Board] | None = None
     for board in _boards(low, high, config):
-        choices = _choices(board, turns, lines, channels.diameter_mm / 2, config)
+        choices = _choices(board, turns, (lines, beads), channels.diameter_mm / 2, config)
         score = sum(each[0].share for each in choices if each)
         if best is None or score > best[0] + 1e-9:
             best = score, choices, board
@@ -86,14 +88,15 @@ def _inside(channels: Channels, turn: Turn) -> _Inside:
 
 
 def _choices(
-    board: Board, turns: Sequence[_Inside], lines: Any, radius_mm: float, config: PegsConfig
+    board: Board, turns: Sequence[_Inside], near_by: tuple[Any, Any], radius_mm: float, config: PegsConfig
 ) -> list[list[_Choice]]:
-    """For each turn the pegs that can serve it, the best first."""
+    """For each turn the pegs that can serve it, the best first; clear of the wires' lines and their beads."""
     import shapely
 
     cells = np.array(list(itertools.product(range(board.columns), range(board.rows))))
     places = np.array(board.origin) + cells * board.pitch_mm
-    room_mm = shapely.distance(shapely.points(places), lines) - radius_mm
+    lines, beads = (shapely.distance(shapely.points(places), each) for each in near_by)
+    room_mm = np.fmin(lines - radius_mm, beads)  # without beads their distance is no number
     diameters = sorted(set(config.diameters))
     widest_mm = diameters[-1] / 2 + radius_mm + config.reach
     found = []

@@ -15,7 +15,7 @@ from wrapit.jig.openings.pins import pin_discs
 from wrapit.jig.printed.course_groove import groove_of
 from wrapit.jig.printed.labels import wire_labels
 from wrapit.jig.printed.plate import SAMPLED_MM, plate_outline, polygon_within
-from wrapit.jig.printed.seats import check_holes, seat_obstacles, seats_of
+from wrapit.jig.printed.seats import bead_seats, check_holes, seat_obstacles, seats_of
 from wrapit.jig.wall_height import wall_heights
 from wrapit.jig.walls_and_pins import StandingWalls, WallPlan, standing_walls, walls_beside
 from wrapit.wires.model import Wire
@@ -50,9 +50,11 @@ def plan_jig(
     standing = walls_of(wires, config)
     channels, planned = standing.channels, standing.plan
     seats = seats_of(config, channels.diameter_mm)
-    pockets = seat_obstacles(seats)
     holes, pins, rims, blocked = planned.holes, planned.pins, planned.rims, planned.blocked
     check_holes(seats, rims)
+    beads, unseated = bead_seats(wires, config, rims.union(seat_obstacles(seats, 0.0)))
+    seats = (*seats, *beads)
+    pockets = seat_obstacles(seats)
     heights = wall_heights(channels, [polygon for polygon, _ in planned.polygons], config)
     walls = tuple(
         Wall(turns, polygon, height)
@@ -72,7 +74,7 @@ def plan_jig(
     names = tuple(wire.name for wire in wires)
     groove = _groove(channels, planned, pockets, labels, config) if config.course else None
     plan = JigPlan(name, names, walls, holes, plate, pins, labels, screws, seats, planned.laid, groove)
-    return plan, (*planned.findings, *unlabelled)
+    return plan, (*planned.findings, *unlabelled, *unseated)
 
 
 def _groove(

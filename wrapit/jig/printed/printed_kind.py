@@ -85,7 +85,7 @@ def _bench(jig: Jig, wires: Wires, config: Config) -> Bench:
         jig.plan.pins,
         Channels.of(tuple(mine), config.jig).reach_mm,
         unmarked=[wire.name for wire in mine if str(wire.number) not in labelled],
-        seats_mm=[seat.bead_mm for seat in jig.plan.seats],
+        seats_mm=[seat.bead_mm for seat in jig.plan.seats if not seat.threaded],
     )
 
 

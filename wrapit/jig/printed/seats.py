@@ -10,16 +10,22 @@ from typing import Any
 import numpy as np
 
 from wrapit.config import JigConfig, SeatConfig
-from wrapit.errors import JigError
+from wrapit.errors import Finding, JigError
 from wrapit.geometry.bspline import chain_of
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Seat
 from wrapit.jig.openings.room import FOOT_MM, PLATE_WEB_MM
 from wrapit.jig.wall_height import wall_height_mm
-from wrapit.wires.model import Wire
+from wrapit.wires.model import Wire, WireBead
 
 # Plate under a pocket: four layers of 0.2 mm, so that it doesn't print as a hole.
 FLOOR_MM = 0.8
+# A bead that reaches less than a layer of print into the plate needs no pocket.
+_LAYER_MM = 0.2
+# How deep a bead sits that is sewn on: as one that the config names.
+_SEWN_MM = float(SeatConfig.model_fields["depth"].default)
+# What helps where a bead has no seat.
+_BY_HAND = "put the bead on when the wire is out of the jig, or make the piece larger"
 
 
 def seats_of(config: JigConfig, diameter_mm: float) -> tuple[Seat, ...]:
@@ -92,6 +98,35 @@ def seats_near(group: Sequence[Wire], wires: Sequence[Wire], config: JigConfig) 
     return config.model_copy(update={"seats": tuple(seats)})
 
 
+def bead_seats(
+    wires: Sequence[Wire], config: JigConfig, taken: Any
+) -> tuple[tuple[Seat, ...], tuple[Finding, ...]]:
+    """Seats for the beads that have room for one beside what is `taken` (shapely); notes about the others.
+
+    A threaded bead's middle is at the wire's height: its pocket lets the wire lie on the plate, and goes
+    through where less than `FLOOR_MM` would be left.
+    """
+    channels = Channels.of(tuple(wires), config)
+    seats: list[Seat] = []
+    said: list[Finding] = []
+    for wire in wires:
+        for bead, place in zip(wire.beads, wire.bead_places, strict=True):
+            seat = _under(wire, bead, (float(place[0]), float(place[1])), config)
+            if seat.depth_mm < _LAYER_MM:
+                continue
+            problem = _problem(seat, seats, taken, channels)
+            if problem:
+                said.append(_told("bead-without-seat", wire, bead, problem, _BY_HAND))
+                continue
+            seats.append(seat)
+            below_mm = seat.depth_mm - config.base_thickness
+            if below_mm > wire.diameter_mm:
+                problem = f"the bead reaches {below_mm:.1f} mm through the plate"
+                remedy = f"lay the jig on two strips, or set jig.base_thickness to {seat.depth_mm:.1f} mm"
+                said.append(_told("bead-below-plate", wire, bead, problem, remedy))
+    return tuple(seats), tuple(said)
+
+
 def mirrored_seats(config: JigConfig) -> JigConfig:
     """The config of the mirrored jig: seats with left and right exchanged."""
     seats = tuple(seat.model_copy(update={"at": (-seat.at[0], seat.at[1])}) for seat in config.seats)
@@ -126,6 +161,46 @@ def _check_wires(channels: Channels, seat: Seat) -> None:
         f"a wire passes {float(near.distance[0]):.1f} mm from its middle and would lie over the pocket",
         f"seat at {_xy(seat)}",
         f"move it {short:.1f} mm away from the wire{smaller}",
+    )
+
+
+def _under(wire: Wire, bead: WireBead, place: tuple[float, float], config: JigConfig) -> Seat:
+    pocket_mm = bead.diameter_mm + 2 * config.clearance
+    if bead.threaded:
+        height_mm = wire.diameter_mm / 2 + float(wire.heights_mm(np.array([bead.at_mm]))[0])
+        depth_mm = bead.diameter_mm / 2 + config.clearance - height_mm
+        if depth_mm > config.base_thickness - FLOOR_MM:
+            depth_mm = max(depth_mm, config.base_thickness)
+    else:
+        depth_mm = min(_SEWN_MM, bead.diameter_mm / 2, config.base_thickness - FLOOR_MM)
+    return Seat(place, bead.diameter_mm, pocket_mm, depth_mm, 0.0, 0.0, bead.threaded)
+
+
+def _problem(seat: Seat, seats: Sequence[Seat], taken: Any, channels: Channels) -> str:
+    """Why a seat has no room; nothing where it has."""
+    outline = seat_obstacles([seat], 0.0)
+    if outline.distance(taken) < PLATE_WEB_MM:
+        return "it is too near to a start hole or another seat for a pocket"
+    if any(outline.distance(seat_obstacles([other], 0.0)) < PLATE_WEB_MM for other in seats):
+        return "it is too near to another bead for a pocket"
+    if not seat.threaded:
+        reach_mm = seat.diameter_mm / 2 + channels.diameter_mm
+        near = channels.outliner.curves.nearest(np.array([seat.centre]), reach_mm)
+        if float(near.distance[0]) < (seat.diameter_mm + channels.diameter_mm) / 2 - 1e-9:
+            return "a wire would lie over its pocket"
+    return ""
+
+
+def _told(code: str, wire: Wire, bead: WireBead, message: str, remedy: str) -> Finding:
+    where = f"{wire.name} at {bead.at_mm:.0f} mm"
+    return Finding(
+        "note",
+        code,
+        where,
+        f"{message} (bead of {bead.diameter_mm:g} mm)",
+        remedy,
+        wire=wire.name,
+        places_mm=(bead.at_mm,),
     )
 
 

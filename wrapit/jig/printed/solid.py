@@ -51,10 +51,11 @@ def jig_solid(plan: JigPlan, walls: tuple[Region, ...], config: JigConfig) -> Te
     for engraved in engravings:
         level = top - engraved.depth_mm
         terraces += [Terrace(stroke, level, slack_mm=ENGRAVED_SLACK_MM) for stroke in engraved.strokes]
-    terraces += [_seat(seat, top) for seat in plan.seats]
+    terraces += [_seat(seat, top) for seat in plan.seats if seat.depth_mm < top]
     through = [hole.outline for hole in plan.holes]
     through += [circle(pin.centre, pin.diameter_mm / 2) for pin in plan.pins]
     through += plan.screw_holes
+    through += [seat.pocket for seat in plan.seats if seat.depth_mm >= top]
     rim = plan.plate.outline.outer
     return terraced_solid(rim, 0.0, top, terraces, through, plan.name, RIM_SLACK_MM)
 

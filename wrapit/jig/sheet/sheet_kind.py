@@ -41,7 +41,7 @@ def make(wires: Wires, config: Config) -> Made:
     said = [*findings]
     if config.pair:
         said.insert(0, ONE_PLATE)
-    if config.jig.seats:
+    if config.jig.seats or any(wire.beads for wire in wires):
         said.append(SEATS_PRINTED)
     return Made(
         block="plate",

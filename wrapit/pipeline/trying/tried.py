@@ -58,7 +58,8 @@ def tried(config: Config, path: Path) -> Tried:
     from wrapit.wires.stage import draw_wires
 
     drawing, fitted = read(config, path)
-    wires, findings = draw_wires(decompose(drawing, config.decomposition)[0], config)
+    beads = fitted.beads if fitted is not None else ()
+    wires, findings = draw_wires(decompose(drawing, config.decomposition)[0], config, beads)
     return Tried(drawing, fitted, wires, findings)
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from wrapit.drawing.spots import Spot
 from wrapit.geometry import FloatArray
 
 # clipped: outside of the page, a viewport or a clip path. hidden: under later ink. erasing: strokes in the
@@ -22,3 +24,12 @@ class Loss:
     length_px: float
     line: int
     name: str = ""
+    width_px: float = 0.0
+    """Of the ink, for dots."""
+
+
+def dots_of(losses: Iterable[Loss]) -> list[Spot]:
+    """The dots among what is lost."""
+    return [
+        Spot((float(loss.at[0]), float(loss.at[1])), loss.width_px) for loss in losses if loss.what == "dots"
+    ]

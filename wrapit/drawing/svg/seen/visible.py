@@ -62,7 +62,7 @@ class Visible:
                 dots.append(middle(curve))
             else:
                 curves.append(curve)
-        self.losses += [Loss("dots", dot, 0.0, shape.line, shape.name) for dot in dots]
+        self.losses += [Loss("dots", dot, 0.0, shape.line, shape.name, shape.stroke_width) for dot in dots]
         return curves
 
     def _of_dashes(self, shape: Shape, curves: list[Curve]) -> list[Curve]:

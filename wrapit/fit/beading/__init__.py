@@ -1,0 +1,1 @@
+"""Beads in place of small round loops and dots."""

@@ -1,0 +1,1 @@
+"""Beads on wires and beside them."""
