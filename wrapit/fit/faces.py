@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 # How exactly the largest circle inside is found.
 _CIRCLE_MM = 0.01
-# A place is on a boundary within rounding.
+# A place is on a boundary within rounding, and what is thinner than this is a crossing of chords.
 _ON_MM = 1e-6
+_SLIVER = 5e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +44,9 @@ def faces_of(sketch: Sketch) -> Faces:
 
     numbers = sorted(sketch.lines)
     points = [sketch.lines[number].curve.sampled(STEP_MM) for number in numbers]
-    polygons = list(shapely.polygonize([sketch.lines[number].shape for number in numbers]).geoms)
+    # Cut where they cross: a line that touches itself by a micron would lose its whole face.
+    cut = shapely.union_all([sketch.lines[number].shape for number in numbers])
+    polygons = [each for each in shapely.polygonize([cut]).geoms if each.area > _SLIVER * each.length]
     middles = shapely.points([_inner_place(each) for each in points])
     if not polygons:
         return Faces((), frozenset(numbers))

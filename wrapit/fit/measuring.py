@@ -10,16 +10,12 @@ import numpy as np
 from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.model import Costs, Limits, Measures
 from wrapit.fit.sketch import Sketch
-from wrapit.geometry import BezierChain, FloatArray
-from wrapit.geometry.bezier import derivative, second_derivative
+from wrapit.geometry import BezierChain
 from wrapit.geometry.disjoint_sets import Sets
+from wrapit.geometry.steering.tight import tight_places
 
-# A bend is tight where it is this much tighter than the limit: what rounding and fitting leave.
-TIGHT: Final = 1.01
-# Curvature is looked at so often within each cubic.
-_PLACES: Final = 33
-# A bend inside a line by more than this (rad) is a corner, whatever the curvature beside it.
-_CORNER_RAD: Final = 0.02
+# What turns by less (rad) is no bend: joints of drawings are that exact, and no hand.
+_NOISE_RAD: Final = 2e-3
 # How finely distances of lines are measured.
 _STEP_MM: Final = 0.1
 
@@ -47,29 +43,9 @@ def fewest_wires(sketch: Sketch) -> int:
     return sum(max(1, count // 2) for count in odd.values())
 
 
-def curvatures(curve: BezierChain) -> FloatArray:
-    """Curvature at places spread along each cubic, (n, m), signed."""
-    t = np.linspace(0, 1, _PLACES)
-    d, dd = derivative(curve.points, t), second_derivative(curve.points, t)
-    speed = np.maximum(np.hypot(d[..., 0], d[..., 1]), 1e-9)
-    return np.asarray((d[..., 0] * dd[..., 1] - d[..., 1] * dd[..., 0]) / speed**3)
-
-
-def corners(curve: BezierChain) -> FloatArray:
-    """Bends (rad) at the joints of a chain, (n - 1,)."""
-    cubics = [BezierChain(cubic[None]) for cubic in curve.points]
-    arriving = np.array([cubic.end_tangent for cubic in cubics[:-1]]).reshape(-1, 2)
-    leaving = np.array([cubic.start_tangent for cubic in cubics[1:]]).reshape(-1, 2)
-    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
-    return np.asarray(np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1))))
-
-
 def tight_bends(curve: BezierChain, radius_mm: float) -> int:
     """How many stretches of a curve bend more tightly than a radius; a corner is one."""
-    tight = np.abs(curvatures(curve)) > TIGHT / radius_mm
-    tight[1:, 0] |= corners(curve) > _CORNER_RAD
-    runs = np.diff(np.r_[0, tight.ravel(), 0])
-    return int((runs == 1).sum())
+    return sum(place.turn > _NOISE_RAD for place in tight_places(curve, radius_mm, closed=False))
 
 
 def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits) -> Costs:

@@ -37,9 +37,14 @@ _ROUNDS: Final = 40
 
 @dataclass(frozen=True)
 class Weights:
-    """What a wire less is worth, in mm of line inside the drawing; `nodes` allowed to branch and bound."""
+    """What a wire less is worth, in mm of line inside the drawing; `nodes` allowed to branch and bound.
+
+    Of more wires than `few` each costs `more_mm` on top.
+    """
 
     wire_mm: float
+    few: int
+    more_mm: float
     nodes: int = 2000
 
 
@@ -160,7 +165,12 @@ def needed_mm(sketch: Sketch, lines: frozenset[int], limits: Limits) -> float:
 
 def _add_parity(programme: Programme, task: Task) -> None:
     """Half a wire for each odd node; between merged nodes two odd ones cancel out."""
-    cost = task.weights.wire_mm / 2
+    weights, nodes = task.weights, len(task.sketch.arms)
+    cost = weights.wire_mm / 2
+    if weights.more_mm:
+        programme.add_column(("many",), weights.more_mm * nodes / 2, whole=False)
+        many: dict[Name, float] = {("odd", node): -0.5 for node in task.sketch.arms}
+        programme.add_row({**many, ("many",): nodes / 2}, low=-float(weights.few))
     for n in sorted(task.mergeable):
         programme.add_column(("even", n), 0.0)
         programme.add_row({("even", n): 1.0, ("one", n): -1.0}, high=0.0)

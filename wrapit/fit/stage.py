@@ -9,7 +9,7 @@ from wrapit.drawing.model import Drawing
 from wrapit.errors import Finding
 from wrapit.fit.beading.bead_places import beads_of, in_segments
 from wrapit.fit.beading.beads import beaded
-from wrapit.fit.choosing import cleared
+from wrapit.fit.clearing import cleared
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from wrapit.drawing.model import Removal
 from wrapit.errors import Finding
-from wrapit.fit.choosing import short_lines, small_faces
+from wrapit.fit.clearing import short_lines, small_faces
 from wrapit.fit.faces import faces_of
 from wrapit.fit.measuring import tight_bends
 from wrapit.fit.model import Limits

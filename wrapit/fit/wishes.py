@@ -19,7 +19,7 @@ def without_dropped(sketch: Sketch, config: Config) -> Sketch:
             if number not in sketch.lines:
                 raise ConfigError(
                     f"there is no segment {number}; the drawing has segments 0 to {len(sketch.lines) - 1}",
-                    f"{key}[{index}]",
+                    f"{key}.{index}",
                     _HELP,
                 )
     both = sorted(set(config.keep) & set(config.drop))
