@@ -37,8 +37,9 @@ _OF_TURNS = tuple(
 )
 STEPS: Final[dict[str, Step]] = {
     "trace": Step(reads=("size", "tracing")),
-    "drawing": Step(("trace",), ("decomposition.bridges",)),
-    "decomposition": Step(("trace",), ("decomposition",)),
+    "fit": Step(("trace",), ("fit", "keep", "drop", "beads", "wire", "jig")),
+    "drawing": Step(("fit",), ("decomposition.bridges",)),
+    "decomposition": Step(("fit",), ("decomposition",)),
     "sketch": Step(("wires",)),
     "alternatives": Step(("wires",)),
     "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", *_OF_TURNS)),

@@ -83,6 +83,12 @@ def _trace(work: Work, folder: Path | None) -> None:
             work.store = Store()  # somebody saved it meanwhile: this is the drawing of no key
         return Outcome(drawing, findings=findings)
 
+    def fitted() -> Outcome:
+        from wrapit.fit.stage import make_fit
+
+        made, findings = make_fit(work.outcomes["trace"].value, work.config)
+        return Outcome(made, findings=findings)
+
     def drawn() -> Outcome:
         from wrapit.decomposition.bridges import with_bridges
         from wrapit.drawing.json_file import drawing_json
@@ -100,6 +106,8 @@ def _trace(work: Work, folder: Path | None) -> None:
 
     with work.stage("drawing"):
         work.take("trace", work.remember(work.key("trace"), traced, None))
+        if work.config.fit != "off" or work.config.drop or work.config.keep:
+            work.take("fit", work.remember(work.key("fit"), fitted, None))
         work.take("drawing", work.remember(work.key("drawing", folder is not None), drawn, folder))
 
 

@@ -18,6 +18,7 @@ from wrapit.pipeline.reads import Keys
 if TYPE_CHECKING:
     from wrapit.decomposition.model import Solution
     from wrapit.drawing.model import Drawing
+    from wrapit.fit.model import Fitted
     from wrapit.jig.made import Made
     from wrapit.wires.model import JumpRing, Wire
 
@@ -66,8 +67,15 @@ class Work:
 
     @property
     def drawing(self) -> Drawing | None:
-        drawing: Drawing | None = self._value("trace")
-        return drawing
+        """As it is divided into wires: made fit for them where the config asks for it."""
+        read: Drawing | None = self._value("trace")
+        return self.fitted.drawing if self.fitted is not None else read
+
+    @property
+    def fitted(self) -> Fitted | None:
+        """The drawing beside the one that was read; None where nothing asks for another."""
+        fitted: Fitted | None = self._value("fit")
+        return fitted
 
     @property
     def solution(self) -> Solution | None:
