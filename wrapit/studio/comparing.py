@@ -7,9 +7,11 @@ from collections.abc import Set as AbstractSet
 from dataclasses import asdict
 from typing import Any, Final
 
+import numpy as np
+
 from wrapit.config import Config
 from wrapit.drawing.json_file import drawing_json
-from wrapit.drawing.model import Drawing
+from wrapit.drawing.model import Drawing, Removal
 from wrapit.errors import WrapItError
 from wrapit.fit.model import Fitted
 from wrapit.fit.stage import make_fit
@@ -22,11 +24,16 @@ HOLDS: Final = frozenset({"unheld", "unheld-wire"})
 """Findings about what a jig holds."""
 # A share that grows by less is no help that a maker would see.
 _MORE_HELD: Final = 0.01
+# How finely lines are sampled to find that of a place, which is one of their points: a line's width is more.
+_STEP_MM: Final = 0.1
 
 
-def fit_document(fitted: Fitted | None) -> dict[str, Any] | None:
-    """What a page shows of it: the drawing that was read, and what became of it and why."""
-    if fitted is None:
+def fit_document(fitted: Fitted | None, config: Config) -> dict[str, Any] | None:
+    """What a page shows of it: the drawing that was read, and what became of it and why.
+
+    None where nothing was asked for, so that there is one drawing only.
+    """
+    if fitted is None or (config.fit == "off" and not fitted.left_out):
         return None
     done = fitted.drawing.removed[len(fitted.original.removed) :]
     return {
@@ -36,9 +43,21 @@ def fit_document(fitted: Fitted | None) -> dict[str, Any] | None:
         "before": asdict(fitted.before),
         "after": asdict(fitted.after),
         "costs": asdict(fitted.costs),
-        "changes": [asdict(change) | {"at": list(change.at)} for change in done],
+        "changes": [
+            asdict(change) | {"at": list(change.at), "line": _line(change, fitted)} for change in done
+        ],
         "beads": [{"at": bead.at.tolist(), "diameter_mm": bead.diameter_mm} for bead in fitted.beads],
     }
+
+
+def _line(change: Removal, fitted: Fitted) -> int | None:
+    """The line that was left out at the place of a change; None where that left none out."""
+    if change.what != "dropped":
+        return None
+    lines = {number: fitted.original.segments[number].curve.sampled(_STEP_MM) for number in fitted.left_out}
+    off_mm = {number: float(np.hypot(*(points - change.at).T).min()) for number, points in lines.items()}
+    nearest = min(off_mm, key=off_mm.__getitem__, default=None)
+    return nearest if nearest is not None and off_mm[nearest] <= _STEP_MM else None
 
 
 def helped_by_fit(work: Work, codes: AbstractSet[str]) -> list[str]:

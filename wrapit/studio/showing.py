@@ -39,7 +39,7 @@ def shown_after(stage: str, work: Work) -> dict[str, Any]:
     news: dict[str, Any] = {"stage": stage, "timings_s": dict(work.timings_s)}
     if stage in ("drawing", "fit") and work.drawing is not None:
         news["drawing"] = drawing_document(work.drawing, work.config.decomposition.bridges)
-        news["fit"] = fit_document(work.fitted)
+        news["fit"] = fit_document(work.fitted, work.config)
     if stage == "decomposition" and work.solution is not None:
         news |= {"energy": asdict(work.solution.energy) | {"total": work.solution.energy.total}}
         news["optimal"] = work.solution.optimal
