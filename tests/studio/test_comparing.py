@@ -22,6 +22,7 @@ from wrapit.pipeline.stages import run_stages
 from wrapit.pipeline.work import Work
 from wrapit.studio import comparing
 from wrapit.studio.comparing import fit_document, helped_by_fit
+from wrapit.studio.session import Session
 from wrapit.studio.showing import shown_after
 
 Fit = tuple[Fitted, tuple[Finding, ...]]
@@ -77,6 +78,7 @@ def test_a_change_that_leaves_no_line_out_names_none(tmp_path: Path) -> None:
     assert [each["line"] for each in document["changes"]] == [None]
 
 
+# Codes that a build told, one of them against which fit may help.
 TIGHT = {"tight-bend", "scale"}
 HELD = {"unheld", "unheld-wire"}
 
@@ -117,31 +119,41 @@ def test_fit_is_offered_where_it_was_tried_and_helps(
     assert helped_by_fit(work, codes) == helped
 
 
-@pytest.mark.parametrize("least", [0.3, 1.0])
+@pytest.mark.parametrize(("left_out", "helped"), [("tail", ["unheld"]), ("ring", []), ("nothing", [])])
 def test_fit_is_offered_where_the_jig_then_holds_enough(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, least: float
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, left_out: str, helped: list[str]
 ) -> None:
-    """Without its small ring, which no peg goes into, the piece has no turn that isn't held."""
-    small = PICTURE.replace("M 45 20 L 60 20", "M 10 30 C 11 28 13 28 13 30 C 13 32 11 32 10 30 Z")
-    work = worked(tmp_path, f"pegs: {{diameters: [30 mm]}}\njig: {{least_support: {least}}}\n", small)
+    """No peg goes into the bends of the tail, so that one wire along ring and tail isn't held at all."""
+    tailed = PICTURE.replace("M 45 20 L 60 20", "M 45 20 C 47 10 49 30 51 20 C 53 10 55 30 57 20")
+    work = worked(tmp_path, "pegs: {diameters: [3 mm]}\n", tailed)
     assert work.drawing is not None
-    sizes = [segment.curve.length for segment in work.drawing.segments]
+    lengths = [segment.curve.length for segment in work.drawing.segments]
+    numbers = {"tail": [lengths.index(min(lengths))], "ring": [lengths.index(max(lengths))], "nothing": []}
 
-    def without_the_small(drawing: Drawing, config: Config) -> Fit:
-        drop = (sizes.index(min(sizes)),) if config.fit == "gentle" else ()
-        return make_fit(drawing, config.model_copy(update={"drop": drop}))
+    def leaving_out(drawing: Drawing, config: Config) -> Fit:
+        drop = tuple(numbers[left_out]) if config.fit == "gentle" else ()
+        return make_fit(drawing, config.model_copy(update={"fit": "off", "drop": drop}))
 
-    monkeypatch.setattr(comparing, "make_fit", without_the_small)
-    then = without_the_small(work.drawing, work.config.model_copy(update={"fit": "gentle"}))[0].drawing
-    shares = {"now": comparing._held(work.wires, work.config)}
-    monkeypatch.setattr(
-        comparing,
-        "_held",
-        lambda wires, config, held=comparing._held: shares.setdefault(str(len(wires)), held(wires, config)),
-    )
-    helped = helped_by_fit(work, {"unheld", "tight-bend"})
-    assert len(then.segments) == len(work.drawing.segments) - 1
-    assert ("unheld" in helped) == (shares["1"] >= max(least, shares["now"] + 0.01)), shares
+    monkeypatch.setattr(comparing, "make_fit", leaving_out)
+    assert helped_by_fit(work, {"unheld", "weak-wire"}) == helped
+
+
+def test_a_finding_has_the_button_that_was_tried_for_it(tmp_path: Path) -> None:
+    session = Session(with_piece(tmp_path) / "leaf.yaml", None)
+    told = {
+        "level": "warning",
+        "where": "wire-01",
+        "message": "tight",
+        "remedy": "bend it by hand",
+        "at": None,
+    }
+    session._building.findings = [told | {"code": "tight-bend"}, told | {"code": "weak-wire"}]
+    session._building.problem = {"code": "unheld", "problem": "", "where": "leaf", "remedy": ""}
+    session._building.helped = ["tight-bend", "unheld"]
+    state = session.state()
+    fit = [{"label": "Make it fit: gentle", "change": {"set": {"fit": "gentle"}}}]
+    assert [each["fixes"] for each in state["findings"]] == [fit, []]
+    assert state["problem"]["fixes"] == fit
 
 
 def test_numbers_are_written_by_the_page_and_taken_back(tmp_path: Path) -> None:
