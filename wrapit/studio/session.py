@@ -52,7 +52,7 @@ class Session:
         self._ended = False
         self._building = Building(self.path, output and output.absolute(), self._bump)
         self._watching: asyncio.Task[None] | None = None
-        self._files = self._signatures()
+        self._files: tuple[object, ...] = self._signatures()
 
     # Begin and end
 
@@ -259,6 +259,8 @@ class Session:
         if now.content != self._now.content:
             self._now = now
             self._files = self._signatures()
+            if content_of(self.path) != now.content:  # written once more since: the watch is to look again
+                self._files = (object(), *self._files[1:])
             self._rebuild()
 
     async def _watch(self) -> None:
