@@ -129,6 +129,134 @@ def test_a_wish_is_clicked_heeded_and_taken_away(page: Page, studio: Studio) -> 
     assert "wire: [" not in studio.config.read_text("utf-8")
 
 
+def shape(page: Page, selector: str) -> str | None:
+    return page.locator(f"#canvas {selector}").get_attribute("d")
+
+
+def fits_and_is_open_to_all(page: Page) -> None:
+    for width in (400, 1400):
+        page.set_viewport_size({"width": width, "height": 900})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, width
+        found = Axe().run(page, options={"iframes": False})
+        assert found.violations_count == 0, found.generate_report()
+
+
+def test_a_line_is_left_out_by_a_click_and_comes_back(page: Page, studio: Studio) -> None:
+    leave = page.get_by_role("button", name="Leave this line out")
+    expect(page.locator("#sides")).to_be_hidden()
+    expect(page.locator("#fit-for-wire")).to_be_empty()
+    was, lines = shape(page, '[data-segment="1"]'), page.locator("[data-segment]").count()
+    page.locator('[data-segment="1"]').focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("button", name="Keep this line")).to_have_count(0)  # nothing would take it
+    leave.focus()
+    page.keyboard.press("Enter")
+    left_out = page.locator('#canvas [data-original="1"]')
+    expect(left_out).to_have_attribute(
+        "aria-pressed", "true", timeout=PATIENCE_MS
+    )  # it is still the chosen one
+    all_made(page)
+    assert studio.config.read_text("utf-8") == CONFIG.replace("jigs:", "drop: [1]\njigs:")
+    assert shape(page, ".original.out") == shape(page, '[data-original="1"]') == was
+    assert page.locator("[data-segment]").count() < lines
+    expect(page.locator("#wishes li")).to_contain_text("line 1, as it was read, is left out")
+    expect(page.locator("#fit-for-wire tbody tr").first).to_have_text(f"Segments{lines}{lines - 1}")
+    expect(page.locator("#fit-for-wire .places li")).to_have_count(1)
+    fits_and_is_open_to_all(page)
+    # Clicked once more, it comes back; so it does by an undo, and out of the list.
+    expect(leave).to_have_attribute("aria-pressed", "true")
+    leave.click()
+    expect(page.locator('[data-segment="1"]')).to_have_attribute("aria-pressed", "true", timeout=PATIENCE_MS)
+    expect(left_out).to_have_count(0)
+    assert studio.config.read_text("utf-8") == CONFIG
+    for back in ("Undo", "take away"):
+        leave.click()
+        expect(page.locator("#wishes li")).to_have_count(1)
+        page.get_by_role("button", name=back).click()
+        expect(page.locator("#wishes li")).to_have_count(0)
+        assert studio.config.read_text("utf-8") == CONFIG
+        expect(leave).to_have_attribute("aria-pressed", "false")
+    all_made(page)
+
+
+def test_a_line_goes_by_the_number_that_it_had(page: Page, studio: Studio) -> None:
+    """Lines that stay are numbered anew, and one may be several of those that were read."""
+    read = studio.state()["shown"]["drawing"]["segments"]
+    last = len(read) - 1
+    was = shape(page, f'[data-segment="{last}"]')
+    studio.post("/change", {"add": {"drop": [0]}})
+    expect(page.locator("[data-original]")).to_have_count(1, timeout=PATIENCE_MS)
+    fit = studio.state()["shown"]["fit"]
+    index = next(index for index, numbers in enumerate(fit["origins"]) if last in numbers)
+    assert index != last
+    page.locator(f'[data-segment="{index}"]').focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("button", name="Leave this line out").click()
+    expect(page.locator("[data-original]")).to_have_count(1 + len(fit["origins"][index]), timeout=PATIENCE_MS)
+    assert shape(page, f'[data-original="{last}"]') == was
+    assert studio.state()["drop"] == [0, *fit["origins"][index]]
+
+
+def test_before_and_after_and_what_was_changed(page: Page, studio: Studio) -> None:
+    """A line that was left out of its own accord is kept by a click on it, or on what is told of it."""
+    studio.config.write_text(CONFIG.replace("jigs:", "fit: gentle  # for the hand\njigs:"), encoding="utf-8")
+    expect(page.get_by_label("Fit for wire", exact=True)).to_have_value("gentle", timeout=PATIENCE_MS)
+    all_made(page)
+    change = {"what": "dropped", "length_mm": 12.0, "reason": "too near", "line": 0}
+
+    def answer(route: Route) -> None:
+        state = route.fetch().json()
+        fit, first = state["shown"]["fit"], state["shown"]["fit"]["original"]["segments"][0]
+        at = first["beziers"][0][0]
+        fit |= {
+            "left_out": [0],
+            "changes": [change | {"at": at}, change | {"what": "faired", "line": None, "at": at}],
+        }
+        fit["origins"] = [[each for each in numbers if each != 0] for numbers in fit["origins"]]
+        fit["beads"] = [{"at": at, "diameter_mm": 4.0}]
+        route.fulfill(json=state)
+
+    page.route("**/state", answer)
+    page.reload()
+    all_made(page)
+    wires, reads = page.locator("#canvas .wire"), page.locator("#canvas .original")
+    lines = studio.state()["shown"]["fit"]["original"]["segments"]
+    expect(reads).to_have_count(len(lines))
+    expect(page.locator("#canvas .bead")).to_have_count(1)
+    # Grey lies beneath: what comes later is painted over it.
+    beneath = "last => last.compareDocumentPosition(document.querySelector('#canvas .wire')) & 4"
+    assert reads.last.evaluate(beneath)
+    page.get_by_role("radio", name="both").focus()
+    for side, shown, read in (("before", False, True), ("after", True, False), ("both", True, True)):
+        page.keyboard.press("ArrowRight")
+        expect(page.get_by_role("radio", name=side)).to_be_checked()
+        assert (wires.count() > 0, reads.count() > 0) == (shown, read)
+        expect(page.locator("[data-original]")).to_have_count(
+            len(lines) * (side == "before") + (side == "both")
+        )
+    fits_and_is_open_to_all(page)
+    page.get_by_role("radio", name="after").check()
+    page.locator('[data-change="1"]').click()
+    expect(page.locator("#canvas circle.change")).to_have_count(1)
+    page.locator('[data-change="0"]').click()
+    expect(page.get_by_role("radio", name="both")).to_be_checked()
+    expect(page.locator('[data-original="0"]')).to_be_focused()
+    expect(page.locator("#fit-for-wire li.shown")).to_contain_text("too near")
+    keep = page.get_by_role("button", name="Keep this line")
+    keep.click()
+    expect(keep).to_have_attribute("aria-pressed", "true")
+    said = studio.config.read_text("utf-8")
+    assert said == CONFIG.replace("jigs:", "fit: gentle  # for the hand\nkeep: [0]\njigs:")
+    page.get_by_role("button", name="Leave this line out").click()
+    expect(page.locator("#wishes li")).to_contain_text("is left out")
+    assert studio.config.read_text("utf-8") == said.replace("keep", "drop")
+    page.get_by_role("button", name="Undo").click()
+    expect(keep).to_have_attribute("aria-pressed", "true")
+    keep.click()
+    expect(page.locator("#wishes li")).to_have_count(0)
+    assert studio.config.read_text("utf-8") == CONFIG.replace("jigs:", "fit: gentle  # for the hand\njigs:")
+
+
 def test_a_junction_and_an_end_are_asked_about(page: Page, studio: Studio) -> None:
     drawing = studio.state()["shown"]["drawing"]
     ends = [segment[key] for segment in drawing["segments"] for key in ("start", "end")]

@@ -18,6 +18,7 @@ import pytest
 from tests.studio.running import CONFIG, PICTURE, ROOT, Studio, running, with_piece
 from tests.studio.test_studio_command import children_of
 from wrapit.studio import server
+from wrapit.studio.session import Session
 
 SIZE = {"set": {"size": "70 mm"}}
 
@@ -257,3 +258,17 @@ def test_many_changes_end_with_the_last(tmp_path: Path) -> None:
         report = studio.built()["shown"]["report"]
         assert max(report["drawing"]["size_mm"]) == pytest.approx(69, abs=0.01)
         assert [path.name for path in (tmp_path / "build").iterdir()] == ["leaf"]
+
+
+def test_a_text_that_is_written_while_another_is_judged_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The watch compares signatures: that of a text nobody has read yet mustn't pass for the known one."""
+    session = Session(with_piece(tmp_path) / "leaf.yaml", None)
+    monkeypatch.setattr(session, "_rebuild", lambda: None)
+    first, second = (CONFIG.replace("60 mm", size).encode() for size in ("61 mm", "62 mm"))
+    session.path.write_bytes(second)
+    session._notice(first)
+    assert session._signatures() != session._files
+    session._notice(second)
+    assert session._signatures() == session._files

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from wrapit.config import Config
 from wrapit.config.loading import config_without_drawing
 from wrapit.errors import ConfigError
-from wrapit.studio.controls import CONTROLS, constraint_entries, controls, field_at, from_page
+from wrapit.studio.controls import CONTROLS, constraint_entries, controls, field_at, from_page, numbers_at
 from wrapit.studio.fixes import fixes
 from wrapit.studio.text.editing import Change, edited
 from wrapit.studio.text.history import History
@@ -154,6 +154,15 @@ def test_a_button_does_what_the_sentence_says(remedy: str, changes: list[Any]) -
     assert len({fix["label"] for fix in offered}) == len(offered)
 
 
+@pytest.mark.parametrize(("fit", "offered"), [("off", 1), ("gentle", 0), ("bold", 0)])
+def test_what_fit_helps_against_has_its_button(fit: str, offered: int) -> None:
+    made = fixes("bend it by hand", "wire-01", DATA | {"fit": fit}, helped=True)
+    assert [fix["label"] for fix in made] == ["Make it fit: gentle"] * offered
+    assert fixes("bend it by hand", "wire-01", DATA | {"fit": fit}) == []
+    said = fixes("larger, or set fit to gentle", "wire-01", DATA | {"fit": fit}, helped=True)
+    assert sum(fix["change"] == {"set": {"fit": "gentle"}} for fix in said) == (fit != "gentle")
+
+
 @pytest.mark.parametrize("size", ["3 mm", "39.9 mm", "150 mm", "999 mm", "1000 mm"])
 def test_a_larger_size_is_larger_and_taken(size: str) -> None:
     data = DATA | {"size": size}
@@ -234,6 +243,11 @@ def test_constraints_that_are_none_do_no_harm(constraints: Any) -> None:
         text = f"decomposition: {{constraints: {json.dumps(constraints)}}}\n"
         with pytest.raises(ConfigError, match="no list"):
             edited(text, Change(release=[0]))
+
+
+@pytest.mark.parametrize("listed", [3, "x", None, [], [None, "5", 3.5, True, [5]], {"a": 1}])
+def test_a_list_of_no_numbers_names_no_line(listed: Any) -> None:
+    assert numbers_at(DATA | {"drop": listed}, "drop") == []
 
 
 def test_history_passes_over_what_does_not_hold() -> None:

@@ -68,7 +68,7 @@ def test_each_stage_shows_its_own(work: Work) -> None:
     keys = {
         stage: shown_after(stage, work)["shown"].keys() for stage in ("drawing", "decomposition", "wires")
     }
-    assert {"drawing", "stage", "timings_s"} == keys["drawing"]
+    assert {"drawing", "fit", "stage", "timings_s"} == keys["drawing"]
     assert {"energy", "optimal"} <= keys["decomposition"]
     assert "wires" in keys["wires"]
 

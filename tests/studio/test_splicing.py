@@ -27,6 +27,8 @@ VALUES: dict[str, list[Any]] = {
     "jig.split": ["single", "per-wire"],
     "bail.diameter": ["5 mm"],
     "guide.units": ["in", "mm"],
+    "keep": [[3], [3, 7, 11]],
+    "drop": [[0], [12, 5]],
 }
 KEYS = sorted(VALUES)
 
@@ -149,6 +151,23 @@ def test_constraints_come_and_go_by_their_number(text: str, data: st.DataObject)
     assert (value_at(said(result), "decomposition.constraints") or []) == kept + added
 
 
+@settings(deadline=None, max_examples=200)
+@given(text=configs(), key=st.sampled_from(["keep", "drop"]), numbers=st.sets(st.integers(0, 15), min_size=1))
+def test_numbers_are_added_once_and_taken_wherever_they_stand(text: str, key: str, numbers: set[int]) -> None:
+    old = value_at(said(text), key) or []
+    other = {"keep": "drop", "drop": "keep"}[key]
+    result = edited(text, Change(add={key: sorted(numbers)}, take={other: sorted(numbers)}))
+    assert value_at(said(result), key) == old + [each for each in sorted(numbers) if each not in old]
+    was = value_at(said(text), other) or []
+    assert (value_at(said(result), other) or []) == [each for each in was if each not in numbers]
+    gone, _ = differences(text, result)
+    assert len(gone) <= 3 + 3 * (len(was) + 1)  # of each list its line or its items' lines, comments between
+    fresh = sorted(numbers - set(old))
+    if fresh:
+        there = edited(text, Change(add={key: fresh}))
+        assert edited(there, Change(take={key: fresh})).rstrip("\r\n") == text.rstrip("\r\n")
+
+
 @pytest.mark.parametrize(
     ("before", "change", "after"),
     [
@@ -182,6 +201,33 @@ def test_constraints_come_and_go_by_their_number(text: str, data: st.DataObject)
             {"set": {"jigs": ["pegs"]}},
             "drawing: a.png\njigs: [\n  pegs,  # a\n]\n",
         ),
+        (
+            "drawing: a.png\nkeep: [4, 5]  # eyes\npair: true\n",
+            {"add": {"drop": [5]}, "take": {"keep": [5]}},
+            "drawing: a.png\nkeep: [4]  # eyes\ndrop: [5]\npair: true\n",
+        ),
+        (
+            "drawing: a.png\ndrop:\n  - 5  # whisker\n  - 6  # tail\n",
+            {"take": {"drop": [5]}},
+            "drawing: a.png\ndrop:\n  - 6  # tail\n",
+        ),
+        (
+            "drawing: a.png\ndrop: [5, 6, 5]\n",
+            {"take": {"drop": [5, 6]}},
+            "drawing: a.png\n",
+        ),
+        (
+            "drawing: a.png\ndrop:  # no eyes\npair: true\n",
+            {"add": {"drop": [5]}},
+            "drawing: a.png\ndrop: [5]  # no eyes\npair: true\n",
+        ),
+        (
+            "{drawing: a.png, drop: , pair: true}",
+            {"add": {"drop": [5]}},
+            "{drawing: a.png, drop: [5] , pair: true}",
+        ),
+        ("drawing: a.png\ndrop: null\n", {"add": {"drop": [5]}}, "drawing: a.png\ndrop: [5]\n"),
+        ("drawing: a.png\ndrop:\n", {"add": {"drop": [5]}}, "drawing: a.png\ndrop: [5]\n"),
     ],
 )
 def test_samples(before: str, change: dict[str, Any], after: str) -> None:
@@ -211,6 +257,12 @@ def test_a_value_with_an_anchor_is_changed_where_it_is_meant() -> None:
         {"release": ["0"]},
         {"release": [99]},
         {"set": {"drawing.size": 3}},
+        {"add": [3]},
+        {"add": {"drop": 3}},
+        {"add": {"drop": ["3"]}},
+        {"take": {"drop": [True]}},
+        {"take": {"../x": [3]}},
+        {"add": {"drawing": [3]}},
     ],
 )
 def test_what_is_no_change_is_refused(document: object) -> None:

@@ -16,16 +16,20 @@ GATHER_S: Final = 0.1
 
 
 class Building:
-    """Orders builds and alternatives, and keeps what they tell; `changed` is called after each of it."""
+    """Orders builds and alternatives, and keeps what they tell; `changed` is called after each of it.
+
+    `helped` are codes of findings against which it helps to make the drawing fit.
+    """
 
     def __init__(self, path: Path, output: Path | None, changed: Callable[[], object]) -> None:
         self._path, self._output, self._changed = path, output, changed
         self.problem: Message | None = None
         self.progress: Message | None = None
         self.fresh = False
-        self.shown: Message = {"drawing": None, "wires": [], "energy": None, "optimal": None}
+        self.shown: Message = {"drawing": None, "fit": None, "wires": [], "energy": None, "optimal": None}
         self.shown |= {"report": None, "files": {}, "stage": None, "timings_s": {}}
         self.findings: list[Message] = []
+        self.helped: list[str] = []
         self.alternatives: Any = None
         self.folder: Path | None = None
         self._alternatives_of = ""
@@ -41,7 +45,7 @@ class Building:
 
     def begin(self, config: Config | None) -> None:
         """Builds anew, and stops what is under way; nothing is built where there is no config that holds."""
-        self.fresh, self.problem, self.progress = False, None, None
+        self.fresh, self.problem, self.progress, self.helped = False, None, None, []
         if self._soon is not None:
             self._soon.cancel()
         if self._builder.is_busy:
@@ -80,6 +84,7 @@ class Building:
             self.progress = self.progress | {"done": [*self.progress["done"], message["done"]]}
         self.shown = self.shown | message.get("shown", {})
         self.findings = message.get("findings", self.findings)
+        self.helped = message.get("helped", self.helped)
         if "folder" in message:
             self.folder = Path(message["folder"])
         self._changed()

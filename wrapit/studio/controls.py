@@ -17,6 +17,8 @@ from wrapit.studio.text.values import value_at
 
 CONTROLS: Final = (
     ("piece", "", "size", "Size"),
+    ("piece", "", "fit", "Fit for wire"),
+    ("piece", "", "beads", "Beads"),
     ("piece", "", "pair", "Pair"),
     ("piece", "", "bail", "Bail"),
     ("piece", "bail", "at", "Place of the bail"),
@@ -91,6 +93,17 @@ def constraint_entries(data: Mapping[str, Any]) -> list[dict[str, Any]]:
         {"index": index, "text": _sentence(item), "constraint": item if isinstance(item, dict) else {}}
         for index, item in enumerate(items)
     ]
+
+
+def numbers_at(data: Mapping[str, Any], key: str) -> list[int]:
+    """The numbers of a list such as `drop`, each once; what is none is left to the text.
+
+    >>> numbers_at({"drop": [5, "oak", 5, 2]}, "drop")
+    [5, 2]
+    """
+    listed = value_at(data, key)
+    items = listed if isinstance(listed, list) else []
+    return [*dict.fromkeys(item for item in items if isinstance(item, int) and not isinstance(item, bool))]
 
 
 def field_at(key: str) -> FieldInfo | None:

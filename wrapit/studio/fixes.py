@@ -41,17 +41,28 @@ _SOFTER: Final = re.compile(r"\bsofter wire\b")
 # The place of a mistake in a config: file, line, column, key; or the key alone.
 _KEY_OF: Final = re.compile(r"^(?:.*:\d+:\d+ )?([a-z_]+(?:\.[a-z_]+)*)$", re.DOTALL)
 # What pressing a button does, where "Set key: value" would be no word of a maker's.
-_SAYING: Final = {"size": "Make it {}", "decomposition.choice": "Take alternative {}"}
+_SAYING: Final = {
+    "size": "Make it {}",
+    "fit": "Make it fit: {}",
+    "decomposition.choice": "Take alternative {}",
+}
 Fix = dict[str, Any]
 
 
 def fixes(
-    remedy: str, where: str, data: Mapping[str, Any], size_mm: float | None = None, wires: int = 0
+    remedy: str,
+    where: str,
+    data: Mapping[str, Any],
+    size_mm: float | None = None,
+    wires: int = 0,
+    *,
+    helped: bool = False,
 ) -> list[Fix]:
     """What to offer as buttons: a label and the change that it makes; the config `data` takes each.
 
     `where` is the place of a mistake in a config, whose key the remedy is about; `size_mm` is the piece's
     size where the config doesn't say it, `wires` how many it has, as far as is known: one can't be parted.
+    `helped` says that to make the drawing fit for wire was tried, and helps.
 
     >>> data = {"drawing": "bee.png", "size": "63 mm"}
     >>> for fix in fixes("make the piece larger, or set jig.split to per-wire", "wire-01", data):
@@ -62,8 +73,9 @@ def fixes(
     """
     now = _config(data)
     measures = _measures(remedy, now, size_mm) if now is not None else ()
+    fitting = (_setting("fit", "gentle"),) if helped and now is not None and now.fit == "off" else ()
     offered: list[Fix] = []
-    for fix in (*_settings(remedy), *_corrections(remedy, where, data), *measures):
+    for fix in (*_settings(remedy), *_corrections(remedy, where, data), *measures, *fitting):
         then = _config(data, fix["change"])
         parted = wires == 1 and "jig.split" in fix["change"].get("set", ())
         if not parted and fix not in offered and then is not None and then != now:

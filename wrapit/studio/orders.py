@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from wrapit.config import load_config
+from wrapit.errors import UnheldError
 from wrapit.pipeline.build import Build, build
 from wrapit.pipeline.output.ownership import REPORT, listed_files, sha256
 from wrapit.pipeline.stages import run_stages
 from wrapit.pipeline.work import STAGES, Stage, Work
+from wrapit.studio.comparing import helped_by_fit
 from wrapit.studio.showing import alternative_documents, placed, shown_after
 
 Tell = Callable[[dict[str, Any]], None]
@@ -34,10 +36,17 @@ def build_piece(tell: Tell, config_path: Path, output: Path | None) -> None:
         seen["work"] = work
         tell({"done": stage, **shown_after(stage, work)})
 
-    result = build(config_path, output, progress=progress, after=after)
+    try:
+        result = build(config_path, output, progress=progress, after=after)
+    except UnheldError as unheld:
+        if "work" in seen:
+            tell({"helped": helped_by_fit(seen["work"], {unheld.code})})
+        raise
     if "work" not in seen or not seen["work"].wires:
         run_stages(_work(config_path, result.sources[1], "wires", progress, after), None)
     tell(_outcome(result, seen["work"]))
+    codes = {each["code"] for each in result.report["findings"]}
+    tell({"helped": helped_by_fit(seen["work"], codes)})
 
 
 def find_alternatives(tell: Tell, config_path: Path, count: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import functools
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
@@ -11,10 +12,10 @@ from typing import Final
 from wrapit.errors import ConfigError, WrapItError
 from wrapit.studio.bench import Message, told
 from wrapit.studio.building import Building, signature
-from wrapit.studio.controls import constraint_entries, controls, from_page
-from wrapit.studio.fixes import fixes
+from wrapit.studio.controls import constraint_entries, controls, from_page, numbers_at
+from wrapit.studio.fixes import Fix, fixes
 from wrapit.studio.text.config_file import Judged, content_of, judged, text_of, write
-from wrapit.studio.text.editing import Change, change_from, edited
+from wrapit.studio.text.editing import change_from, edited
 from wrapit.studio.text.history import History
 from wrapit.studio.text.values import BOM, finite
 from wrapit.units import printable
@@ -51,7 +52,7 @@ class Session:
         self._ended = False
         self._building = Building(self.path, output and output.absolute(), self._bump)
         self._watching: asyncio.Task[None] | None = None
-        self._files = self._signatures()
+        self._files: tuple[object, ...] = self._signatures()
 
     # Begin and end
 
@@ -86,6 +87,10 @@ class Session:
         buttons = functools.cache(
             functools.partial(fixes, data=data, size_mm=building.size_mm, wires=len(building.shown["wires"]))
         )
+
+        def offered(each: Message, where: str) -> list[Fix]:
+            return buttons(each["remedy"], where, helped=each["code"] in building.helped)
+
         problem = told(now.problem) if now.problem is not None else building.problem
         return {
             "revision": self._revision,
@@ -93,7 +98,7 @@ class Session:
             "config": printable(self.path.name),
             "text": now.text,
             "text_sha256": now.sha256,
-            "problem": problem and problem | {"fixes": buttons(problem["remedy"], problem["where"])},
+            "problem": problem and problem | {"fixes": offered(problem, problem["where"])},
             "again": problem is not None and now.problem is None,
             "building": building.progress,
             "fresh": building.fresh,
@@ -101,8 +106,10 @@ class Session:
             "can_redo": self._history.after() is not None,
             "controls": controls(data),
             "constraints": constraint_entries(data),
+            "keep": numbers_at(data, "keep"),
+            "drop": numbers_at(data, "drop"),
             "shown": building.shown,
-            "findings": [each | {"fixes": buttons(each["remedy"], "")} for each in building.findings],
+            "findings": [each | {"fixes": offered(each, "")} for each in building.findings],
             "alternatives": building.alternatives,
         }
 
@@ -148,7 +155,7 @@ class Session:
             values = {key: from_page(key, value) for key, value in asked.set.items()}
             gone = [key for key, value in values.items() if value is None]
             kept = {key: value for key, value in values.items() if value is not None}
-            return edited(text, Change(kept, [*asked.unset, *gone], asked.constrain, asked.release))
+            return edited(text, dataclasses.replace(asked, set=kept, unset=[*asked.unset, *gone]))
 
         return self._rewrite(changed)
 
@@ -252,6 +259,8 @@ class Session:
         if now.content != self._now.content:
             self._now = now
             self._files = self._signatures()
+            if content_of(self.path) != now.content:  # written once more since: the watch is to look again
+                self._files = (object(), *self._files[1:])
             self._rebuild()
 
     async def _watch(self) -> None:

@@ -18,6 +18,7 @@ from wrapit.geometry import FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.pipeline.report import findings_list
 from wrapit.pipeline.work import Work
+from wrapit.studio.comparing import fit_document
 from wrapit.wires.model import Wire
 
 SAG_MM: Final = 0.05
@@ -36,8 +37,9 @@ _NUMBERED: Final = re.compile(r"\b(segment|junction)s? (\d+)")
 def shown_after(stage: str, work: Work) -> dict[str, Any]:
     """What a page shows anew after a stage: a part of the state's `shown`, and the findings so far."""
     news: dict[str, Any] = {"stage": stage, "timings_s": dict(work.timings_s)}
-    if stage == "drawing" and work.drawing is not None:
+    if stage in ("drawing", "fit") and work.drawing is not None:
         news["drawing"] = drawing_document(work.drawing, work.config.decomposition.bridges)
+        news["fit"] = fit_document(work.fitted, work.config)
     if stage == "decomposition" and work.solution is not None:
         news |= {"energy": asdict(work.solution.energy) | {"total": work.solution.energy.total}}
         news["optimal"] = work.solution.optimal

@@ -8,12 +8,15 @@ const curve = (beziers) =>
     .map(([a, b, c, d], index) => `${index ? "" : `M ${a[0]} ${-a[1]} `}C ${b[0]} ${-b[1]} ${c[0]} ${-c[1]} ${d[0]} ${-d[1]}`)
     .join(" ");
 
-function bounds(drawing) {
-  const points = [...drawing.junctions, ...drawing.segments.flatMap((segment) => segment.beziers.flat())];
+const least = (values) => values.reduce((a, b) => Math.min(a, b)); // however many there are
+const most = (values) => values.reduce((a, b) => Math.max(a, b));
+
+function bounds(...drawings) {
+  const points = drawings.flatMap((drawing) => [...drawing.junctions, ...drawing.segments.flatMap((segment) => segment.beziers.flat())]);
   const xs = points.map((point) => point[0]);
   const ys = points.map((point) => -point[1]);
-  const low = [Math.min(...xs), Math.min(...ys)];
-  return { low, size: [Math.max(...xs) - low[0], Math.max(...ys) - low[1]] };
+  const low = [least(xs), least(ys)];
+  return { low, size: [most(xs) - low[0], most(ys) - low[1]] };
 }
 
 function middle(beziers) {
@@ -61,19 +64,40 @@ function free([x, y], taken, room) {
   return place;
 }
 
-/**
- * The picture of a state. `selected` is {segments: [..], junction: n | null, finding: n | null}; `layers` says
- * what else is seen; `pick` is told of clicks: pick.segment(n), pick.junction(n), pick.finding(n).
- */
-export function canvas(state, selected, layers, picture, pick) {
-  const { drawing, wires } = state.shown;
-  if (!drawing) return html("p", { class: "soft" }, "Nothing is read yet.");
-  const { low, size } = bounds(drawing);
-  const unit = Math.max(...size) / 60;
-  const margin = 3 * unit;
-  const box = [low[0] - margin, low[1] - margin, size[0] + 2 * margin, size[1] + 2 * margin];
-  const ends = incident(drawing);
-  const children = [source(drawing, layers.picture ? picture : null)];
+function asRead(fit, alone, unit) {
+  const out = new Set(fit.left_out);
+  return fit.original.segments.map((each, index) =>
+    svg("path", { class: `original${alone ? " alone" : ""}${out.has(index) ? " out" : ""}`, d: curve(each.beziers), "stroke-width": unit / 3, "stroke-dasharray": out.has(index) ? unit : null }),
+  );
+}
+
+/** What can be clicked of the drawing that was read: what was left out, or all of it where it is shown alone. */
+function readHits(fit, alone, selected, unit, pick) {
+  const shown = alone ? fit.original.segments.map((_, index) => index) : fit.left_out;
+  return shown.map((index) =>
+    svg("path", {
+      class: `hit${selected.original === index ? " selected" : ""}`,
+      d: curve(fit.original.segments[index].beziers),
+      "stroke-width": (alone ? 2.4 : 1.2) * unit, // narrow, for it may lie beside a line that stayed
+      "data-original": index,
+      "aria-pressed": String(selected.original === index),
+      ...pressable(alone ? `line ${index} as it was read` : `line ${index} as it was read, left out`, () => pick.original(index)),
+    }),
+  );
+}
+
+const numbered = (each, index, unit) => {
+  const [x, y] = middle(each.beziers);
+  return svg("text", { class: "number", x, y: -y, "font-size": 2 * unit, "stroke-width": unit / 2 }, String(index));
+};
+
+function readNumbers(fit, alone, selected, layers, unit) {
+  const shown = (index) => (layers.numbers && alone) || selected.original === index;
+  return fit.original.segments.flatMap((each, index) => (shown(index) ? [numbered(each, index, unit)] : []));
+}
+
+function lines({ drawing, wires, fit }, layers, unit) {
+  const children = [];
   if (!wires.length || layers.read) {
     for (const each of drawing.segments)
       if (each.kind !== "bridge") children.push(svg("path", { class: "drawn", d: curve(each.beziers), "stroke-width": unit / 4 }));
@@ -83,48 +107,53 @@ export function canvas(state, selected, layers, picture, pick) {
       children.push(
         svg("polyline", { class: "wire", points: line(wire.points), stroke: wire.colour, "stroke-width": wire.diameter_mm }),
       );
-  drawing.segments.forEach((each, index) => {
-    const classes = ["hit", selected.segments.includes(index) && "selected", `segment-${index}`];
-    children.push(
-      svg("path", {
-        class: classes.filter(Boolean).join(" "),
-        d: curve(each.beziers),
-        "stroke-width": 2.4 * unit,
-        "data-segment": index,
-        "aria-pressed": String(selected.segments.includes(index)),
-        ...pressable(`line ${index}`, () => pick.segment(index)),
-      }),
-    );
-  });
-  drawing.junctions.forEach(([x, y], index) => {
+  for (const { at, diameter_mm: diameter } of fit?.beads ?? [])
+    children.push(svg("circle", { class: "bead", cx: at[0], cy: -at[1], r: diameter / 2, "stroke-width": unit / 4 }));
+  return children;
+}
+
+function hits(drawing, selected, unit, pick) {
+  return drawing.segments.map((each, index) =>
+    svg("path", {
+      class: ["hit", selected.segments.includes(index) && "selected", `segment-${index}`].filter(Boolean).join(" "),
+      d: curve(each.beziers),
+      "stroke-width": 2.4 * unit,
+      "data-segment": index,
+      "aria-pressed": String(selected.segments.includes(index)),
+      ...pressable(`line ${index}`, () => pick.segment(index)),
+    }),
+  );
+}
+
+function places(drawing, ends, selected, unit, pick) {
+  return drawing.junctions.map(([x, y], index) => {
     const classes = ["place", ends[index].length === 1 && "end", selected.junction === index && "selected"];
-    children.push(
-      svg(
-        "g",
-        {
-          class: classes.filter(Boolean).join(" "),
-          "stroke-width": unit / 4,
-          "data-junction": index,
-          "aria-pressed": String(selected.junction === index),
-          ...pressable(ends[index].length === 1 ? `end ${index}` : `junction ${index}`, () => pick.junction(index)),
-        },
-        svg("circle", { class: "reach", cx: x, cy: -y, r: 2.2 * unit }), // as fingers need
-        svg("circle", { cx: x, cy: -y, r: 0.8 * unit }),
-      ),
+    return svg(
+      "g",
+      {
+        class: classes.filter(Boolean).join(" "),
+        "stroke-width": unit / 4,
+        "data-junction": index,
+        "aria-pressed": String(selected.junction === index),
+        ...pressable(ends[index].length === 1 ? `end ${index}` : `junction ${index}`, () => pick.junction(index)),
+      },
+      svg("circle", { class: "reach", cx: x, cy: -y, r: 2.2 * unit }), // as fingers need
+      svg("circle", { cx: x, cy: -y, r: 0.8 * unit }),
     );
   });
+}
+
+function numbers(drawing, ends, selected, layers, unit) {
   const asked = new Set([...selected.segments, ...(ends[selected.junction] ?? []).map(([segment]) => segment)]);
-  if (layers.numbers || asked.size)
-    drawing.segments.forEach((each, index) => {
-      if (!layers.numbers && !asked.has(index)) return;
-      const [x, y] = middle(each.beziers);
-      children.push(svg("text", { class: "number", x, y: -y, "font-size": 2 * unit, "stroke-width": unit / 2 }, String(index)));
-    });
+  return drawing.segments.flatMap((each, index) => (layers.numbers || asked.has(index) ? [numbered(each, index, unit)] : []));
+}
+
+function marks(findings, selected, layers, unit, pick) {
   const taken = [];
-  state.findings.forEach((finding, index) => {
-    if (!finding.at || (finding.level === "note" && !layers.notes && index !== selected.finding)) return;
+  return findings.flatMap((finding, index) => {
+    if (!finding.at || (finding.level === "note" && !layers.notes && index !== selected.finding)) return [];
     const [x, y] = free(finding.at, taken, 2.4 * unit);
-    children.push(
+    return [
       svg("path", {
         class: `mark ${finding.level}`,
         d: `M ${x} ${-y} l ${1.1 * unit} ${-2.2 * unit} h ${-2.2 * unit} z`,
@@ -133,8 +162,40 @@ export function canvas(state, selected, layers, picture, pick) {
         ...pressable(`finding ${index + 1}: ${finding.message}`, () => pick.finding(index)),
       }),
       svg("text", { class: "number white", x, y: -y - 1.55 * unit, "font-size": 1.2 * unit, "aria-hidden": "true" }, String(index + 1)),
-    );
+    ];
   });
+}
+
+function changed(fit, selected, unit) {
+  const change = fit?.changes[selected.change];
+  return change ? svg("circle", { class: "change", cx: change.at[0], cy: -change.at[1], r: 2.6 * unit, "stroke-width": unit / 2 }) : null;
+}
+
+/**
+ * The picture of a state. `selected` is {segments: [..], original: n | null, junction: n | null, finding: n | null,
+ * change: n | null}; `layers` says what else is seen, and which `side`: what was read (before), what is made of it
+ * (after), or both; `pick` is told of clicks: pick.segment(n), .original(n), .junction(n), .finding(n).
+ */
+export function canvas(state, selected, layers, picture, pick) {
+  const { drawing, fit } = state.shown;
+  if (!drawing) return html("p", { class: "soft" }, "Nothing is read yet.");
+  const { low, size } = bounds(drawing, ...(fit ? [fit.original] : []));
+  const unit = Math.max(...size) / 60;
+  const margin = 3 * unit;
+  const box = [low[0] - margin, low[1] - margin, size[0] + 2 * margin, size[1] + 2 * margin];
+  const ends = incident(drawing);
+  const before = fit && layers.side !== "after";
+  const alone = fit && layers.side === "before";
+  const children = [
+    source(drawing, layers.picture ? picture : null),
+    ...(before ? asRead(fit, alone, unit) : []),
+    ...(alone ? [] : [...lines(state.shown, layers, unit), ...hits(drawing, selected, unit, pick)]),
+    ...(before ? readHits(fit, alone, selected, unit, pick) : []),
+    ...(alone ? [] : [...places(drawing, ends, selected, unit, pick), ...numbers(drawing, ends, selected, layers, unit)]),
+    ...(before ? readNumbers(fit, alone, selected, layers, unit) : []),
+    ...(alone ? [] : marks(state.findings, selected, layers, unit, pick)),
+    changed(fit, selected, unit),
+  ];
   return svg("svg", { viewBox: box.join(" "), role: "group", "aria-describedby": "keys", "aria-label": `${state.name}: lines, junctions and findings` }, ...children);
 }
 

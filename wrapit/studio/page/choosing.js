@@ -2,6 +2,7 @@
 
 import { hint, incident } from "./canvas.js";
 import { html } from "./elements.js";
+import { aboutOriginal, entries, origins, staying } from "./fitting.js";
 
 const PAIRS = ["through", "not_through"];
 const OPPOSITE = { same_wire: "different_wire", different_wire: "same_wire", through: "not_through", not_through: "through", start_at: "cut_at", cut_at: "start_at" };
@@ -81,33 +82,38 @@ function aboutJunction(state, junction, act) {
 }
 
 function aboutSegments(state, [a, b], act) {
-  if (b === undefined) return [html("h2", {}, `Line ${a}${carrier(state, a)}`), html("p", { class: "soft" }, "Click another line: are they one wire?")];
+  if (b === undefined)
+    return [html("h2", {}, `Line ${a}${carrier(state, a)}`), html("p", { class: "soft" }, "Click another line: are they one wire?"), ...staying(state, origins(state, a), act)];
   const pair = [a, b];
+  const stay = staying(state, [...new Set(pair.flatMap((each) => origins(state, each)))], act, "these lines");
   const { segments } = state.shown.drawing;
   const meet = [segments[a].start, segments[a].end].filter((each) => [segments[b].start, segments[b].end].includes(each));
   const met = new Set(meet);
   const buttons = [ask(state, act, "Same wire", { same_wire: pair }), ask(state, act, "Different wires", { different_wire: pair })];
   if (met.size === 1) buttons.push(ask(state, act, "Pass from one to the other", { through: pair }), ask(state, act, "Never pass so", { not_through: pair }));
   const lines = met.size > 1 ? html("p", { class: "soft" }, "They meet twice: click a junction to say how wires pass there.") : null;
-  return [html("h2", {}, `Lines ${a}${carrier(state, a)} and ${b}${carrier(state, b)}`), html("p", { class: "buttons" }, ...buttons), lines];
+  return [html("h2", {}, `Lines ${a}${carrier(state, a)} and ${b}${carrier(state, b)}`), html("p", { class: "buttons" }, ...buttons), lines, ...stay];
 }
 
 /** The panel about what is selected; `act` takes a change. */
 export function chosen(state, selected, act) {
   if (!state.shown.drawing) return [];
   if (selected.junction !== null) return aboutJunction(state, selected.junction, act);
+  if (selected.original !== null) return aboutOriginal(state, selected.original, act);
   if (selected.segments.length) return aboutSegments(state, selected.segments, act);
   return [
     html("h2", {}, "Say how it is to be"),
-    html("p", { class: "soft" }, "Click two lines: are they one wire? Click a junction: how do wires pass it? Click an end: does a wire start there?"),
+    html("p", { class: "soft" }, "Click two lines: are they one wire? Click a junction: how do wires pass it? Click an end: does a wire start there? Click one line: does it stay?"),
   ];
 }
 
 /** The wishes that the config holds, each with a button that takes it away. */
 export function wishes(state, act) {
-  if (!state.constraints.length) return [];
-  const items = state.constraints.map(({ index, text }) =>
-    html("li", {}, html("span", {}, text), html("button", { type: "button", class: "plain", "aria-label": `take away: ${text}`, onclick: () => act({ release: [index] }) }, "Take away")),
+  const wished = state.constraints.map(({ index, text }) => ({ text, away: () => act({ release: [index] }) }));
+  const all = [...wished, ...entries(state, act)];
+  if (!all.length) return [];
+  const items = all.map(({ text, away }) =>
+    html("li", {}, html("span", {}, text), html("button", { type: "button", class: "plain", "aria-label": `take away: ${text}`, onclick: away }, "Take away")),
   );
   return [html("h2", {}, "Your wishes"), html("ul", { class: "plain" }, ...items)];
 }

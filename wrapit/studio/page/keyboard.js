@@ -1,6 +1,6 @@
 // The keyboard in the picture: one stop for Tab, however many lines there are; arrows go on from there.
 
-const KINDS = ["segment", "junction", "finding"];
+const KINDS = ["segment", "original", "junction", "finding"];
 const STEPS = { ArrowRight: 1, ArrowLeft: -1 };
 const TURNS = { ArrowDown: 1, ArrowUp: -1 };
 
@@ -58,5 +58,5 @@ export function arrows(place) {
 
 /** Gives a picture that was drawn anew its stop, where the last one had it. */
 export function renew(place) {
-  stopAt(place, (stop && place.querySelector(stop)) ?? place.querySelector("[data-segment]"));
+  stopAt(place, (stop && place.querySelector(stop)) ?? place.querySelector("[data-segment], [data-original]"));
 }

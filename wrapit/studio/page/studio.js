@@ -4,15 +4,18 @@ import { canvas } from "./canvas.js";
 import { chosen, wishes } from "./choosing.js";
 import { controls } from "./controls.js";
 import { html } from "./elements.js";
+import { fitness, followed } from "./fitting.js";
 import { arrows, named, renew } from "./keyboard.js";
 import * as panels from "./panels.js";
 import * as server from "./server.js";
 
 const TABS = { wires: "Wires", jig: "Jig", guide: "Guide", ways: "Ways to divide it", text: "Text", files: "Files" };
-const LAYERS = { wires: "wires", read: "what was read", numbers: "numbers", notes: "notes", picture: "the picture" };
+const LAYERS = { wires: "wires", read: "its lines", numbers: "numbers", notes: "notes", picture: "the picture" };
+const SIDES = { both: "both", before: "before", after: "after" };
+const NOTHING = { segments: [], original: null, junction: null, finding: null, change: null };
 
 const at = (id) => document.getElementById(id);
-const view = { tab: "wires", selected: { segments: [], junction: null, finding: null }, layers: { wires: true, read: false, numbers: false, notes: false, picture: false } };
+const view = { tab: "wires", selected: NOTHING, layers: { side: "both", wires: true, read: false, numbers: false, notes: false, picture: false } };
 let state = null;
 let picture = null;
 
@@ -46,18 +49,32 @@ function makeTabs() {
       return html("label", {}, html("input", { type: "checkbox", id: `layer-${key}`, checked: view.layers[key], onchange: toggled }), ` ${label}`);
     }),
   );
+  at("sides").append(
+    html("legend", {}, "As it was read, and as it is made fit for wire:"),
+    ...Object.entries(SIDES).map(([key, label]) => html("label", {}, html("input", { type: "radio", name: "side", id: `side-${key}`, checked: view.layers.side === key, onchange: () => showSide(key) }), ` ${label}`)),
+  );
   showTab("wires");
+}
+
+function showSide(key) {
+  view.layers.side = key;
+  at(`side-${key}`).checked = true;
+  showPicture();
 }
 
 const pick = {
   segment(index) {
     const { segments } = view.selected;
     const kept = segments.includes(index) ? segments.filter((each) => each !== index) : [...segments, index].slice(-2);
-    view.selected = { segments: kept, junction: null, finding: null };
+    view.selected = { ...NOTHING, segments: kept };
     showPicture();
   },
   junction(index) {
-    view.selected = { segments: [], junction: view.selected.junction === index ? null : index, finding: null };
+    view.selected = { ...NOTHING, junction: view.selected.junction === index ? null : index };
+    showPicture();
+  },
+  original(index) {
+    view.selected = { ...NOTHING, original: view.selected.original === index ? null : index };
     showPicture();
   },
   finding(index) {
@@ -75,6 +92,17 @@ function locate(index) {
   showFindings();
 }
 
+/** Shows the place of a change; a line that was left out there is chosen at once. */
+function locateChange(index) {
+  const { line } = state.shown.fit.changes[index];
+  view.selected = { ...NOTHING, original: line, change: index };
+  showTab("wires");
+  showSide(line !== null && view.layers.side === "after" ? "both" : view.layers.side);
+  document.querySelector("#canvas .change")?.scrollIntoView({ block: "nearest" });
+  if (line !== null) document.querySelector(`#canvas [data-original="${line}"]`)?.focus();
+  showFitness();
+}
+
 /** What has the keyboard keeps it when the picture is drawn anew. */
 function focused() {
   const element = document.activeElement;
@@ -87,14 +115,21 @@ function showPicture() {
   const known = (index, all) => all && index < all.length;
   view.selected.segments = view.selected.segments.filter((each) => known(each, drawing?.segments));
   if (view.selected.junction !== null && !known(view.selected.junction, drawing?.junctions)) view.selected.junction = null;
+  const read = state.shown.fit?.original.segments;
+  if (view.selected.original !== null && !known(view.selected.original, read)) view.selected.original = null;
   const again = focused();
+  const pressed = at("chosen").contains(document.activeElement) ? document.activeElement.textContent : null;
   at("canvas").replaceChildren(canvas(state, view.selected, view.layers, picture, pick));
   at("canvas").classList.toggle("stale", !state.fresh);
   renew(at("canvas"));
   if (again) at("canvas").querySelector(again)?.focus();
   at("layer-picture").closest("label").hidden = !drawing?.pixel_frame;
+  at("sides").hidden = !state.shown.fit;
   at("chosen").replaceChildren(...chosen(state, view.selected, act).filter(Boolean));
+  if (pressed) [...at("chosen").querySelectorAll("button")].find((each) => each.textContent === pressed)?.focus();
 }
+
+const showFitness = () => fitness(at("fit-for-wire"), state, view.selected.change, locateChange);
 
 const showFindings = () => at("findings").replaceChildren(...panels.findings(state, view.selected.finding, locate, act));
 
@@ -121,6 +156,7 @@ function show() {
   loadPicture();
   showPicture();
   at("wishes").replaceChildren(...wishes(state, act));
+  showFitness();
   at("numbers").replaceChildren(...panels.numbers(state));
   showFindings();
   panels.jig(at("view-jig"), state);
@@ -176,6 +212,7 @@ async function refresh() {
   const newest = await server.state();
   waiting = false;
   if (newest && (!state || newest.revision >= state.revision)) {
+    view.selected = followed(view.selected, state, newest, view.layers.side);
     state = newest;
     show();
   }

@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Final
 
 from wrapit.config.texts.reading import UNREADABLE
@@ -31,29 +31,35 @@ _MISSING: Final = object()
 @dataclass(frozen=True)
 class Change:
     """What is to become of a config, all of it together: dotted keys to set and to take away, constraints to
-    add at the end, and the numbers of those to drop."""
+    add at the end, and the numbers of those to drop; numbers that lists are to get, or to lose wherever they
+    stand in them."""
 
     set: Mapping[str, Any] = field(default_factory=dict)
     unset: Sequence[str] = ()
     constrain: Sequence[Mapping[str, Any]] = ()
     release: Sequence[int] = ()
+    add: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    take: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
 
 def change_from(document: object) -> Change:
     """A change as the page sends it. Raises ConfigError for anything else."""
-    if not isinstance(document, dict) or not document.keys() <= {"set", "unset", "constrain", "release"}:
-        raise _refusal("a change is a block of set, unset, constrain and release", "change")
+    parts = {each.name for each in fields(Change)}
+    if not isinstance(document, dict) or not document.keys() <= parts:
+        raise _refusal(f"a change is a block of {', '.join(sorted(parts))}", "change")
     change = Change(**document)
     shapes = (
         ("set", isinstance(change.set, dict)),
         ("unset", _is_list_of(change.unset, str)),
         ("constrain", _is_list_of(change.constrain, dict)),
         ("release", _is_list_of(change.release, int)),
+        ("add", _has_lists_of_numbers(change.add)),
+        ("take", _has_lists_of_numbers(change.take)),
     )
     for key, right in shapes:
         if not right:
             raise _refusal(f"{key!r} is not of the right kind", "change")
-    for key in (*change.set, *change.unset):
+    for key in (*change.set, *change.unset, *change.add, *change.take):
         if not _KEY.fullmatch(key):
             raise _refusal("this can't be a key", shortened(printable(key), 80))
     return change
@@ -78,11 +84,22 @@ def edited(text: str, change: Change) -> str:
         text, data = _without(text, data, key)
     for key, value in change.set.items():
         text, data = _with(text, data, key, value)
+    lists = {key: _renumbered(data, key, change) for key in dict.fromkeys((*change.take, *change.add))}
     if constraints is not None:
-        text, data = (
-            _with(text, data, CONSTRAINTS, constraints) if constraints else _without(text, data, CONSTRAINTS)
-        )
+        lists[CONSTRAINTS] = constraints
+    for key, items in lists.items():
+        text, data = _with(text, data, key, items) if items else _without(text, data, key)
     return mark + text
+
+
+def _renumbered(data: Mapping[str, Any], key: str, change: Change) -> list[Any]:
+    """A list of numbers as it is to be; a number that it has already isn't added again."""
+    old = value_at(data, key)
+    old = [] if old is None else old
+    if not isinstance(old, list):
+        raise _refusal("this is no list of numbers", key)
+    kept = [item for item in old if item not in change.take.get(key, ())]
+    return kept + [item for item in dict.fromkeys(change.add.get(key, ())) if item not in kept]
 
 
 def _constraints(data: Mapping[str, Any], change: Change) -> list[Any] | None:
@@ -162,6 +179,10 @@ def _is_list_of(value: object, kind: type) -> bool:
     return isinstance(value, list | tuple) and all(
         isinstance(item, kind) and not (kind is int and isinstance(item, bool)) for item in value
     )
+
+
+def _has_lists_of_numbers(value: object) -> bool:
+    return isinstance(value, dict) and all(_is_list_of(items, int) for items in value.values())
 
 
 def _refusal(problem: str, where: str) -> ConfigError:

@@ -39,6 +39,9 @@ def replaced(text: str, keys: Sequence[str], value: Any) -> str:
             return _inserted(text, node, keys[depth:], value, _order(keys[:depth]))
         inner = pair[1]
         if depth == len(keys) - 1:
+            colon = _colon(text, pair[0])
+            if _is_nothing(inner) and colon is not None:
+                return f"{text[:colon]} {flow(value)}{text[colon:]}"
             return _exchanged(text, inner, value)
         if _is_nothing(inner):
             indent = _column(text, pair[0].start_mark.index) + _INDENT
@@ -203,6 +206,12 @@ def _known(node: Any, key: str) -> Any:
 
 def _pair(node: Any, key: str) -> Any:
     return next((pair for pair in node.value if pair[0].value == key), None)
+
+
+def _colon(text: str, key: Any) -> int | None:
+    """Where the colon behind a key ends; a value of nothing has its mark anywhere behind it."""
+    colon = re.compile(r" *:").match(text, _end(key))
+    return colon.end() if colon else None
 
 
 def _is_mapping(node: Any) -> bool:
