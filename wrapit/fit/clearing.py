@@ -9,12 +9,12 @@ from wrapit.drawing.model import Removal
 from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.measuring import fewest_wires
 from wrapit.fit.merging import merged
-from wrapit.fit.mirrored import mirror_pairs
+from wrapit.fit.mirrored import mirror_of
 from wrapit.fit.model import Level, Limits
 from wrapit.fit.programme import Task, Weights, choose, needed_mm
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.worth import worths
-from wrapit.fit.zipping import zipped
+from wrapit.fit.zipping.zipped import zipped
 
 # What a wire less is worth, in mm of line inside the drawing that may go for it; more where there are many.
 # Twice the second takes from the lobster its last stripe, none of it leaves castles and deer two thirds.
@@ -41,7 +41,7 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
         faces = faces_of(sketch)
         if not short_lines(sketch, limits) and not small_faces(sketch, faces, limits):
             break
-        pairs = mirror_pairs(sketch)
+        pairs = mirror_of(sketch).pairs
         worth = worths(sketch, faces, limits)
         task = Task(
             sketch,
