@@ -38,6 +38,10 @@ class Axis:
         c, s = math.cos(2 * self.angle_rad), math.sin(2 * self.angle_rad)
         return self.point + (points - self.point) @ np.array([[c, s], [s, -c]])
 
+    def nearest(self, points: FloatArray) -> FloatArray:
+        """The places on the axis nearest to points (…, 2)."""
+        return (points + self.mirrored(points)) / 2
+
 
 def mirror_images(drawing: Drawing, direction: Direction) -> tuple[int, ...]:
     """For each half-edge the one that is its mirror image, NO_IMAGE where there is none.
@@ -59,8 +63,8 @@ def mirror_images(drawing: Drawing, direction: Direction) -> tuple[int, ...]:
 
 def images_of(
     curves: Sequence[BezierChain], angles_rad: Sequence[float], across_mm: float
-) -> tuple[tuple[int, ...], float]:
-    """For each half-edge of curves the mirror image at the best of some angles, and what share has one.
+) -> tuple[tuple[int, ...], float, Axis]:
+    """For each half-edge of curves the mirror image at the best of some angles, what share has one, the axis.
 
     The axis runs through the centre of the lines; `across_mm` is their longest side.
     """
@@ -68,10 +72,11 @@ def images_of(
     weights = np.array([curve.length for curve in curves])
     centre = np.average(lines.mean(axis=1), axis=0, weights=weights)
     tolerance_mm = _TOLERANCE * across_mm
-    found = [_images(lines, Axis(locked(centre), angle), tolerance_mm) for angle in angles_rad]
+    axes = [Axis(locked(centre), angle) for angle in angles_rad]
+    found = [_images(lines, axis, tolerance_mm) for axis in axes]
     covered = [sum(weights[e] for e in range(len(weights)) if images[2 * e] != NO_IMAGE) for images in found]
     best = int(np.argmax(covered))
-    return found[best], float(covered[best] / weights.sum())
+    return found[best], float(covered[best] / weights.sum()), axes[best]
 
 
 def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ...]:

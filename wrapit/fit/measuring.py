@@ -45,7 +45,7 @@ def fewest_wires(sketch: Sketch) -> int:
 
 def tight_bends(curve: BezierChain, radius_mm: float) -> int:
     """How many stretches of a curve bend more tightly than a radius; a corner is one."""
-    return sum(place.turn > _NOISE_RAD for place in tight_places(curve, radius_mm, closed=False))
+    return sum(bool(place.turn > _NOISE_RAD) for place in tight_places(curve, radius_mm, closed=False))
 
 
 def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits) -> Costs:

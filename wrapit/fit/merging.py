@@ -41,12 +41,12 @@ class Merger:
     lost: bool
 
 
-def merged(sketch: Sketch, number: int, blur_mm: float) -> Merger | None:
+def merged(sketch: Sketch, number: int, blur_mm: float, near: FloatArray | None = None) -> Merger | None:
     """The two ends of a line become one node; None where lines would cross or coincide for that.
 
     A line that runs on straight through the short one stays as it is, and what ends on it slides along it.
-    Where none does, both ends come to the middle. A place that moves by `blur_mm` counts as moved, less by
-    the square.
+    Where none does, both ends come to the middle. With `near` the node is as near to that place (2,) as the
+    line goes. A place that moves by `blur_mm` counts as moved, less by the square.
     """
     line = sketch.lines[number]
     if line.is_ring or _runs_beside(sketch, number):
@@ -55,13 +55,18 @@ def merged(sketch: Sketch, number: int, blur_mm: float) -> Merger | None:
     after = straight_on(sketch, (number, True))
     if before is not None and after is not None and before[0] == after[0]:
         after = None  # a ring of two lines: nothing to slide along
-    middle_mm = line.curve.length / 2
-    if before is not None and after is not None:
-        cut_mm = middle_mm
-    elif before is not None or after is not None:
-        cut_mm = line.curve.length if before is not None else 0.0
-    else:
-        return _pulled_together(sketch, number, blur_mm)
+    cut_mm = line.curve.length / 2
+    if near is not None:
+        points = line.curve.sampled(STEP_MM)
+        nearest = int(np.argmin(((points - near) ** 2).sum(axis=1)))
+        cut_mm = min(float(lengths(points)[nearest]), line.curve.length)
+        if nearest == len(points) - 1:
+            cut_mm = line.curve.length
+    elif (before is None) != (after is None):
+        cut_mm = line.curve.length if after is None else 0.0
+    if before is None and after is None:
+        at = (line.curve.start + line.curve.end) / 2 if near is None else _at(line.curve, cut_mm)
+        return _moved(sketch, number, at, {}, blur_mm)
     return _slid(sketch, number, before, after, cut_mm, blur_mm)
 
 
@@ -80,12 +85,6 @@ def _slid(
         if arm is not None and part is not None:
             grown[arm[0]] = _lengthened(sketch, arm, part, node, line.origin, at)
     return _moved(sketch, number, at, grown, blur_mm)
-
-
-def _pulled_together(sketch: Sketch, number: int, blur_mm: float) -> Merger | None:
-    line = sketch.lines[number]
-    at = (line.curve.start + line.curve.end) / 2
-    return _moved(sketch, number, at, {}, blur_mm)
 
 
 def _moved(

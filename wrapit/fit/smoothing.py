@@ -17,19 +17,22 @@ from wrapit.geometry.steering.paths import Held
 _LOOSER: Final[dict[Held, Held]] = {"pinned": "placed", "placed": "placed", "free": "free"}
 
 
+# An end that is held less firmly than it should counts as so much deviation, in least radii.
+_LOOSENED: Final = 0.25
+
+
 def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     """The sketch with each line no tighter than the least radius, where its ends allow that.
 
     A line that goes straight on into another keeps its direction there, one that ends on others its place; a
-    loose end may move. A line that can't be widened without crossing another stays.
+    loose end may move. An end is held less firmly where the line stays much nearer to the drawing so. A line
+    that can't be widened without crossing another stays.
     """
-    for n, line in sorted(sketch.lines.items()):
-        if not tight_bends(line.curve, limits.radius_mm):
-            continue
-        for start, end in _ways(sketch, n):
-            found = _widened(line, limits, start, end, closed=_is_alone(sketch, n))
-            if found is None:
-                continue
+    tight = [n for n, line in sorted(sketch.lines.items()) if tight_bends(line.curve, limits.radius_mm)]
+    ways = {n: _ways(sketch, n, limits) for n in tight}
+    for n in tight:
+        line = sketch.lines[n]
+        for found in ways[n]:
             new = Line(line.start, line.end, found.curve, line.origin)
             nodes = {line.start: found.curve.start, line.end: found.curve.end}
             result = sketch.changed(lines={n: new}, nodes=nodes, told=_told(line, found, limits))
@@ -39,27 +42,23 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     return sketch
 
 
-def _widened(line: Line, limits: Limits, start: Held, end: Held, *, closed: bool) -> Bounded | None:
-    if closed:
-        return bounded(line.curve, limits.radius_mm, "free", "free", closed=True)
-    return bounded(line.curve, limits.radius_mm, start, end)
-
-
-def _is_alone(sketch: Sketch, n: int) -> bool:
-    """Whether a line is a ring that nothing else meets."""
-    return sketch.lines[n].is_ring and len(sketch.arms[sketch.lines[n].start]) == 2
-
-
-def _ways(sketch: Sketch, n: int) -> list[tuple[Held, Held]]:
-    """How a line's ends are held, the firmest first."""
-    firm = _held(sketch, n, last=False), _held(sketch, n, last=True)
-    ways = [
-        firm,
-        (firm[0], _LOOSER[firm[1]]),
-        (_LOOSER[firm[0]], firm[1]),
-        (_LOOSER[firm[0]], _LOOSER[firm[1]]),
-    ]
-    return list(dict.fromkeys(ways))
+def _ways(sketch: Sketch, n: int, limits: Limits) -> list[Bounded]:
+    """How a line can be widened, the best first."""
+    line, radius_mm = sketch.lines[n], limits.radius_mm
+    if line.is_ring and len(sketch.arms[line.start]) == 2:
+        ring = bounded(line.curve, radius_mm, "free", "free", closed=True)
+        return [] if ring is None else [ring]
+    start, end = _held(sketch, n, last=False), _held(sketch, n, last=True)
+    found: list[tuple[float, int, Bounded]] = []
+    holds = ((start, end), (start, _LOOSER[end]), (_LOOSER[start], end), (_LOOSER[start], _LOOSER[end]))
+    for way in dict.fromkeys(holds):
+        wide = bounded(line.curve, radius_mm, *way)
+        if wide is not None:
+            loosened = (way[0] != start) + (way[1] != end)
+            found.append((wide.deviation + _LOOSENED * radius_mm * loosened, loosened, wide))
+            if wide.deviation <= _LOOSENED * radius_mm:
+                break
+    return [wide for *_, wide in sorted(found, key=lambda each: each[:2])]
 
 
 def _held(sketch: Sketch, n: int, *, last: bool) -> Held:

@@ -1,0 +1,1 @@
+"""Lines that run along one another without room between them become one."""
