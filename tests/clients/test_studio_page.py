@@ -20,6 +20,16 @@ CONFIG = (
     "# mine\nname: leaf\ndrawing: leaf.svg\nsize: 60 mm  # of the stem too\n"
     "jigs: [sheet]\noutputs: [html, svg]\n"
 )
+# Half a crab: shell, a line across it, claw, two legs, and a feeler that curls
+# more tightly than 1 mm wire bends. The whole has its mirror image too.
+HALF = (
+    "M 30 16 C 46 16 50 26 50 32 C 50 44 40 48 30 48",
+    "M 30 28 C 36 28 44 28 49 28",
+    "M 47 24 C 54 20 54 12 50 8 L 48 12 L 46 9 C 44 14 44 18 45.6 21.9",
+    "M 49.5 35 L 56 38 L 55 41 L 49 37.5",
+    "M 47.5 40.5 L 53 46 L 51 48 L 45.6 43",
+    "M 36 16.5 C 37 10 38 8 39.5 8 C 40.7 8 40.7 9.1 39.5 9.1",
+)
 # A busy machine builds a second's work in many.
 PATIENCE_MS = 120_000
 WIDTHS = (360, 768, 1000, 1400)
@@ -255,6 +265,55 @@ def test_before_and_after_and_what_was_changed(page: Page, studio: Studio) -> No
     keep.click()
     expect(page.locator("#wishes li")).to_have_count(0)
     assert studio.config.read_text("utf-8") == CONFIG.replace("jigs:", "fit: gentle  # for the hand\njigs:")
+
+
+def crab() -> str:
+    half = "".join(f'<path d="{data}"/>' for data in HALF)
+    whole = f'<g fill="none" stroke="black">{half}<g transform="matrix(-1 0 0 1 60 0)">{half}</g></g>'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 60">{whole}</svg>'
+
+
+def test_a_crab_is_made_fit_by_a_button_and_keeps_its_leg(page: Page, studio: Studio, tmp_path: Path) -> None:
+    (tmp_path / "crab.svg").write_text(crab(), encoding="utf-8")
+    start = CONFIG.replace("leaf", "crab").replace("60 mm", "50 mm")
+    studio.config.write_text(start, encoding="utf-8")
+    expect(page.get_by_label("Size", exact=True)).to_have_value("50 mm", timeout=PATIENCE_MS)
+    gentle = page.get_by_role("button", name="Make it fit: gentle").first
+    expect(gentle).to_be_visible(timeout=PATIENCE_MS)
+    all_made(page)
+    before = drawn(page)
+    expect(page.locator("#sides")).to_be_hidden()
+    gentle.click()
+    expect(page.get_by_label("Fit for wire", exact=True)).to_have_value("gentle", timeout=PATIENCE_MS)
+    all_made(page)
+    made = studio.config.read_text("utf-8")
+    assert made == start.replace("jigs:", "fit: gentle\njigs:")
+    fit = studio.state()["shown"]["fit"]
+    assert fit["before"]["tight_bends"] > fit["after"]["tight_bends"] == 0
+    expect(page.get_by_role("button", name="Make it fit: gentle")).to_have_count(0)
+    assert drawn(page) != before
+    read, wires = fit["original"]["segments"], studio.state()["shown"]["wires"]
+    for side, selector, lines in (("before", ".original", read), ("after", ".wire", wires)):
+        page.get_by_role("radio", name=side).check()
+        expect(page.locator(f"#canvas {selector}")).to_have_count(len(lines))
+    page.get_by_role("radio", name="both").check()
+    leg = fit["left_out"][0]
+    page.locator(f'[data-original="{leg}"]').focus()
+    page.keyboard.press("Enter")
+    keep = page.get_by_role("button", name="Keep this line")
+    keep.click()
+    expect(page.locator("#wishes li")).to_contain_text(f"line {leg}, as it was read, is kept")
+    all_made(page)
+    assert studio.config.read_text("utf-8") == made.replace("jigs:", f"keep: [{leg}]\njigs:")
+    assert leg not in studio.state()["shown"]["fit"]["left_out"]
+    expect(page.locator(f'[data-original="{leg}"]')).to_have_count(0)
+    for text in (made, start):
+        page.get_by_role("button", name="Undo").click()
+        expect(page.locator("#wishes li")).to_have_count(0)
+        all_made(page)
+        assert studio.config.read_text("utf-8") == text
+    expect(page.locator("#sides")).to_be_hidden(timeout=PATIENCE_MS)
+    assert drawn(page) == before
 
 
 def test_a_junction_and_an_end_are_asked_about(page: Page, studio: Studio) -> None:

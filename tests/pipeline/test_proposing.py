@@ -97,3 +97,35 @@ def test_what_was_found_is_said(tmp_path: Path) -> None:
     assert told
     assert run.stderr.splitlines()[: len(told)] == told
     assert "bail: {at: top" in written
+
+
+def test_what_is_made_fit_is_as_small_as_fingers_bend(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Junctions that lie too near ask for a large piece; made fit, they are one."""
+    (tmp_path / "near.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 40"><g fill="none" stroke="black">'
+        '<path d="M 2 20 C 2 0 50 0 50 20 C 50 40 2 40 2 20 Z"/>'
+        '<path d="M 20 2 L 20 38 M 22 2 L 22 38 M 24 2 L 24 38"/></g></svg>'
+    )
+    first = propose(tmp_path / "near.svg")
+    assert first.size_mm > 2 * first.least_mm
+    monkeypatch.setattr(proposing, "held_share", lambda config, path: 1.0)
+    least_mm = {"gentle": 50, "bold": 40}
+    for off, size_mm in (("tight", 50), ("sound", first.size_mm)):
+        monkeypatch.setattr(
+            proposing,
+            "_too_tight",
+            lambda config, path, off=off: (
+                1.0 + (off == "tight")
+                if config.fit == "off"
+                else max(1.0, least_mm[config.fit] / config.size)
+            ),
+        )
+        monkeypatch.setattr(proposing, "gain_of", lambda config, path, level: "")
+        proposal, found = propose_makeable(tmp_path / "near.svg")
+        assert (proposal.size_mm, found) == (size_mm, "sound")
+        assert proposal.fit == ("gentle" if off == "tight" else "")
+    assert "# fit: gentle   # with it, size: 50 mm can be made too\n" in proposal.text()
+    pendant, _ = propose_makeable(tmp_path / "near.svg", preset="pendant")
+    assert propose(tmp_path / "near.svg", preset="pendant").least_mm == 50 <= pendant.size_mm

@@ -33,13 +33,17 @@ _ROOM = 6.0
 
 @dataclass(frozen=True)
 class Proposal:
-    """What is proposed for a drawing, and what was found in it; `more` are lines of a preset."""
+    """What is proposed for a drawing, and what was found in it; `more` are lines of a preset.
+
+    `least_mm` is the least size that fingers bend, or the preset's: for a drawing that is made fit.
+    """
 
     named: str
     drawing: Drawing
     across_mm: float
     gauge: int
     size_mm: int
+    least_mm: int
     findings: tuple[Finding, ...]
     more: tuple[str, ...] = ()
     fit: str = ""
@@ -104,7 +108,8 @@ def propose(path: Path, folder: Path | None = None, preset: str = "") -> Proposa
     across_mm = float((high - low).max())
     gauge = gauge if gauge is not None else _gauge(drawing, across_mm)
     size_mm = _size(drawing, across_mm, awg_diameter_mm(gauge), least_mm)
-    return Proposal(named, drawing, across_mm, gauge, size_mm, findings, more)
+    least = next(size for size in SIZES_MM if size >= least_mm)
+    return Proposal(named, drawing, across_mm, gauge, size_mm, least, findings, more)
 
 
 def _of_preset(name: str) -> tuple[float, int, tuple[str, ...]]:

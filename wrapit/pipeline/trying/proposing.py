@@ -14,12 +14,14 @@ from wrapit.drawing.proposal import SIZES_MM, Proposal, propose
 from wrapit.errors import WrapItError
 from wrapit.pipeline.trying.offering import gain_of
 from wrapit.pipeline.trying.remedies import held_share
-from wrapit.pipeline.trying.tried import LEVELS, tried
+from wrapit.pipeline.trying.tried import LEVELS, FitLevel, tried
 
 # Nobody waits longer for a proposal than for a build without solids. A size takes 0.5 to 3 s on our drawings.
 _PATIENCE_S = 20.0
 # And half as long for each way to make it fit: who waits for these has a drawing that needs one.
 _FIT_PATIENCE_S = 10.0
+# A piece made fit that is at most this much of the size is told: less isn't worth any line.
+_MUCH_SMALLER = 0.7
 # Traced anew at another size, bends come out a little wider or tighter: so much smaller a piece may do too.
 _NEARLY = 0.9
 
@@ -41,22 +43,37 @@ def propose_makeable(path: Path, folder: Path | None = None, preset: str = "") -
 
     It is that of `propose`, at the first of the usual sizes from there on at which the jig holds enough and
     no wire bends more tightly than its metal takes; where none was found in time, it is made fit, as gently
-    as does; else it is at the first size that is held. What `fit` would do is a comment, if it does anything.
-    Works without the kernel. Raises what `propose` raises.
+    as does and as small; else it is at the first size that is held. What `fit` would do is a comment, if it
+    does anything. Works without the kernel. Raises what `propose` raises.
     """
     first = propose(path, folder, preset)
     best, found = _at_a_size(first, path, _PATIENCE_S)
     if found == "sound":
-        gain = gain_of(_config(best, path), path, "gentle")
-        return (replace(best, about_fit=f"fit: gentle   # {gain}") if gain else best), found
+        about_fit = _offered(best, path)
+        return (replace(best, about_fit=about_fit) if about_fit else best), found
     why = f"Made fit for wire: {_WHY[found]}; `fit: off` leaves it so."
     for level in LEVELS:
-        made, then = _at_a_size(replace(first, fit=level, about_fit=why), path, _FIT_PATIENCE_S)
+        made, then = _at_a_size(_fitted(first, level, why), path, _FIT_PATIENCE_S)
         if _ORDER.index(then) < _ORDER.index(found):
             best, found = made, then
         if found == "sound":
             break
     return best, found
+
+
+def _offered(best: Proposal, path: Path) -> str:
+    """What `fit: gentle` would do to a proposal that can be made without: less work, or a smaller piece."""
+    gain = gain_of(_config(best, path), path, "gentle")
+    if not gain and best.least_mm <= _MUCH_SMALLER * best.size_mm:
+        small, found = _at_a_size(_fitted(best, "gentle"), path, _FIT_PATIENCE_S)
+        if found == "sound" and small.size_mm <= _MUCH_SMALLER * best.size_mm:
+            gain = f"with it, size: {small.size_mm} mm can be made too"
+    return f"fit: gentle   # {gain}" if gain else ""
+
+
+def _fitted(proposal: Proposal, level: FitLevel, why: str = "") -> Proposal:
+    """A proposal that is made fit, at the least size: junctions that are too near are no matter then."""
+    return replace(proposal, size_mm=proposal.least_mm, fit=level, about_fit=why)
 
 
 def _at_a_size(first: Proposal, path: Path, patience_s: float) -> tuple[Proposal, Held]:
