@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
+
 from wrapit.drawing.model import Removal
 from wrapit.fit.measuring import tight_bends
 from wrapit.fit.merging import is_planar, straight_on
 from wrapit.fit.model import Limits
-from wrapit.fit.sketch import Line, Sketch
-from wrapit.geometry.arclength import piece
+from wrapit.fit.sketch import STEP_MM, Line, Sketch
 from wrapit.geometry.bounded import Bounded, bounded
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.steering.paths import Held
 
 # How an end may be held where it can't be as firmly as it should.
@@ -71,9 +73,11 @@ def _held(sketch: Sketch, n: int, *, last: bool) -> Held:
 
 def _told(line: Line, found: Bounded, limits: Limits) -> tuple[Removal, ...]:
     told = []
+    points = line.curve.sampled(STEP_MM)
+    along = lengths(points)
     for a, b in found.spans:
-        length = line.curve.length
-        x, y = piece(line.curve, 0.0, ((a + b) / 2) % length or length).end
+        # A span of a ring may run on over where it starts.
+        x, y = points[np.argmin(np.abs(along - (a + b) / 2 % line.curve.length))]
         told.append(
             Removal(
                 "faired",
