@@ -57,7 +57,7 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
         if not choice.dropped and not choice.merged:
             break
         sketch = _without(sketch, choice.dropped, faces, limits)
-        for some in _alike(choice.merged, pairs):
+        for some in _alike(task.sketch, choice.merged, pairs):
             sketch = _as_one(sketch, some, limits, refused)
     return sketch.simplified()
 
@@ -136,9 +136,10 @@ def _mergeable(
     return {n: each for n, each in costs.items() if each is not None and costs[pairs.get(n, n)] is not None}
 
 
-def _alike(numbers: frozenset[int], pairs: Mapping[int, int]) -> list[tuple[int, ...]]:
-    """Numbers, mirror images together."""
-    return sorted({tuple(sorted({n, pairs.get(n, n)} & numbers)) for n in numbers})
+def _alike(sketch: Sketch, numbers: frozenset[int], pairs: Mapping[int, int]) -> list[tuple[int, ...]]:
+    """Numbers, mirror images together, the shortest lines first, however they are numbered."""
+    alike = {tuple(sorted({n, pairs.get(n, n)} & numbers)) for n in numbers}
+    return sorted(alike, key=lambda each: (round(sketch.lines[each[0]].curve.length, 3), each))
 
 
 def _without(sketch: Sketch, dropped: frozenset[int], faces: Faces, limits: Limits) -> Sketch:

@@ -9,6 +9,7 @@ import numpy as np
 from wrapit.drawing.model import Removal
 from wrapit.fit.measuring import tight_bends
 from wrapit.fit.merging import is_planar, straight_on
+from wrapit.fit.mirrored import mirror_pairs
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import STEP_MM, Line, Sketch
 from wrapit.geometry.bounded import Bounded, bounded
@@ -25,20 +26,39 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     A line that goes straight on into another keeps its direction there, one that ends on others its place; a
     loose end may move. A line that can't be widened without crossing another stays.
     """
-    for n, line in sorted(sketch.lines.items()):
-        if not tight_bends(line.curve, limits.radius_mm):
+    pairs = mirror_pairs(sketch)
+    tight = {n for n, line in sketch.lines.items() if tight_bends(line.curve, limits.radius_mm)}
+    twins = {tuple(sorted({n, pairs.get(n, n)} & tight)) for n in tight}
+    # The longest first, whatever they are numbered; images together, so that neither is in the other's way.
+    for numbers in sorted(twins, key=lambda each: (-round(sketch.lines[each[0]].curve.length, 3), each)):
+        alike = [[ways[0], ways[-1]] for ways in (_ways(sketch, n) for n in numbers)]
+        together = _gentle(sketch, limits, numbers, alike) if len(numbers) > 1 else None
+        if together is not None:
+            sketch = together
             continue
-        for start, end in _ways(sketch, n):
+        for n in numbers:
+            sketch = _gentle(sketch, limits, (n,), [_ways(sketch, n)]) or sketch
+    return sketch
+
+
+def _gentle(
+    sketch: Sketch, limits: Limits, numbers: tuple[int, ...], ways: list[list[tuple[Held, Held]]]
+) -> Sketch | None:
+    """The sketch with lines widened in the first of the ways of each in which all of them can be."""
+    for held in zip(*ways, strict=True):
+        lines: dict[int, Line] = {}
+        result = sketch
+        for n, (start, end) in zip(numbers, held, strict=True):
+            line = sketch.lines[n]
             found = _widened(line, limits, start, end, closed=_is_alone(sketch, n))
             if found is None:
-                continue
-            new = Line(line.start, line.end, found.curve, line.origin)
-            nodes = {line.start: found.curve.start, line.end: found.curve.end}
-            result = sketch.changed(lines={n: new}, nodes=nodes, told=_told(line, found, limits))
-            if is_planar(result, {n: new}, sketch):
-                sketch = result
                 break
-    return sketch
+            lines[n] = Line(line.start, line.end, found.curve, line.origin)
+            nodes = {line.start: found.curve.start, line.end: found.curve.end}
+            result = result.changed(lines={n: lines[n]}, nodes=nodes, told=_told(line, found, limits))
+        if len(lines) == len(numbers) and is_planar(result, lines, sketch):
+            return result
+    return None
 
 
 def _widened(line: Line, limits: Limits, start: Held, end: Held, *, closed: bool) -> Bounded | None:
