@@ -30,6 +30,8 @@ _PARTING: Final = 3.0
 _ALONG: Final = 2.0
 # An end so many rooms away from the stretch comes along.
 _SNAP: Final = 2.0
+# Places of a line that are as near as that (mm) to one another line's: which is nearer is chance.
+_ALIKE_MM: Final = 1e-6
 # So many pairs at most become one: each leaves fewer lines that are near.
 _MOST: Final = 60
 
@@ -51,19 +53,22 @@ def zipped(sketch: Sketch, limits: Limits, worth: Mapping[int, float], keep: fro
     """
     density = {frozenset(sketch.lines[n].origin): worth[n] / sketch.lines[n].curve.length for n in worth}
     sketch = _folded(sketch, limits)
-    passed: set[tuple[frozenset[int], frozenset[int]]] = set()
+    failed: set[tuple[object, ...]] = set()
     for _ in range(_MOST):
         found = _stretches(sketch, limits, density, keep)
-        stretch = next((s for s in found if _names(sketch, s) not in passed), None)
+        stretch = next((s for s in found if _name(sketch, s) not in failed), None)
         if stretch is None:
             break
-        passed.add(_names(sketch, stretch))
-        sketch = _as_one(sketch, stretch, limits) or sketch
+        result = _as_one(sketch, stretch, limits)
+        if result is None:
+            failed.add(_name(sketch, stretch))
+        else:
+            sketch = result
     return sketch
 
 
 def _folded(sketch: Sketch, limits: Limits) -> Sketch:
-    """Lines that come near themselves get a node half way: they are two that run along one another."""
+    """Lines that come near themselves get a node half way of each bight: two that run along one another."""
     way_mm = 2 * _PARTING * limits.room_mm
     half: dict[int, list[float]] = {}
     for one, at, other, other_at, _ in _near_places(sketch, limits.room_mm):
@@ -75,10 +80,14 @@ def _folded(sketch: Sketch, limits: Limits) -> Sketch:
         ):
             half.setdefault(one, []).append((at + other_at) / 2)
     for number, places in sorted(half.items()):
-        line, at_mm, node = sketch.lines[number], float(np.median(places)), max(sketch.nodes) + 1
-        points = {**sketch.nodes, node: piece(line.curve, 0.0, at_mm).end}
-        names = {0.0: line.start, at_mm: node, line.curve.length: line.end}
-        sketch = sketch.changed((number,), _cut(sketch, number, names, points), {node: points[node]})
+        line, free = sketch.lines[number], max(sketch.nodes) + 1
+        names = {0.0: line.start, line.curve.length: line.end}
+        nodes: dict[int, FloatArray] = {}
+        for low, high in _runs(np.array(places), limits.room_mm):
+            at_mm = float(np.median([place for place in places if low <= place <= high]))
+            names[at_mm] = free + len(nodes)
+            nodes[names[at_mm]] = piece(line.curve, 0.0, at_mm).end
+        sketch = sketch.changed((number,), _cut(sketch, number, names, {**sketch.nodes, **nodes}), nodes)
     return sketch
 
 
@@ -90,7 +99,7 @@ def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, i
     points = [sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers]
     every = np.concatenate(points)
     owner = np.repeat(numbers, [len(each) for each in points])
-    at = np.concatenate([lengths(each) for each in points])
+    at = np.concatenate([_along(sketch.lines[n].curve, each) for n, each in zip(numbers, points, strict=True)])
     pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
     far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > _PARTING * room_mm
     pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
@@ -102,8 +111,16 @@ def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, i
         yield int(owner[i]), float(at[i]), int(owner[j]), float(at[j]), gap
 
 
-def _names(sketch: Sketch, stretch: Stretch) -> tuple[frozenset[int], frozenset[int]]:
-    return sketch.lines[stretch.line].origin, sketch.lines[stretch.other].origin
+def _along(curve: BezierChain, points: FloatArray) -> FloatArray:
+    """Where along a curve its points are: chords alone are shorter than its bends, by 0.05 mm in some."""
+    chords = lengths(points)
+    return chords * (curve.length / max(float(chords[-1]), 1e-12))
+
+
+def _name(sketch: Sketch, stretch: Stretch) -> tuple[object, ...]:
+    """What a stretch is known by while numbers of lines change: the lines' origins, and where they begin."""
+    line, other = sketch.lines[stretch.line], sketch.lines[stretch.other]
+    return line.origin, other.origin, round(stretch.span_mm[0], 3), round(stretch.beside_mm[0], 3)
 
 
 def _stretches(
@@ -115,7 +132,7 @@ def _stretches(
     for one, at, other, other_at, gap in _near_places(sketch, room_mm):
         if one != other and not _part_there(sketch, one, at, other, other_at, _PARTING * room_mm):
             near.setdefault((one, other), []).append((at, other_at, gap))
-    found = []
+    found: list[tuple[tuple[float, ...], Stretch]] = []
     for (one, other), places in sorted(near.items()):
         table = np.array(places)
         if min(np.ptp(table[:, 0]), np.ptp(table[:, 1])) < _ALONG * room_mm:
@@ -127,13 +144,21 @@ def _stretches(
             continue
         lesser = 0 if (kept[0], weight[0], one) < (kept[1], weight[1], other) else 1
         own = table[:, lesser]
-        low, high = _run(own, room_mm)
-        ends = [table[np.flatnonzero(own == each)] for each in (low, high)]
-        beside = [float(each[np.argmin(each[:, 2]), 1 - lesser]) for each in ends]
-        if high - low >= _ALONG * room_mm and abs(beside[1] - beside[0]) >= room_mm:
-            pair = (one, other)
-            found.append(Stretch(pair[lesser], pair[1 - lesser], (low, high), (beside[0], beside[1])))
-    return sorted(found, key=lambda s: (-round(s.span_mm[1] - s.span_mm[0], 6), s.line, s.other))
+        pair = (one, other)
+        for low, high in _runs(own, room_mm):
+            beside = (_beside(table, lesser, low), _beside(table, lesser, high))
+            if high - low >= _ALONG * room_mm and abs(beside[1] - beside[0]) >= room_mm:
+                stretch = Stretch(pair[lesser], pair[1 - lesser], (low, high), beside)
+                # Of some as long that with the least lines comes first, however they are numbered.
+                rank = np.round((low - high, weight[lesser], weight[1 - lesser]), 3).tolist()
+                found.append(((*rank, *pair, low), stretch))
+    return [stretch for _, stretch in sorted(found, key=lambda each: each[0])]
+
+
+def _beside(table: FloatArray, lesser: int, at_mm: float) -> float:
+    """The place on the other line that is nearest to one on the lesser; the middle of those as near."""
+    there = table[table[:, lesser] == at_mm]
+    return float(there[there[:, 2] < there[:, 2].min() + _ALIKE_MM, 1 - lesser].mean())
 
 
 def _part_there(
@@ -150,13 +175,12 @@ def _part_there(
     )
 
 
-def _run(places_mm: FloatArray, gap_mm: float) -> tuple[float, float]:
-    """The longest run of places without a gap."""
+def _runs(places_mm: FloatArray, gap_mm: float) -> list[tuple[float, float]]:
+    """Runs of places without a gap."""
     ordered = np.unique(places_mm)
     breaks = np.flatnonzero(np.diff(ordered) > gap_mm)
     starts, ends = np.r_[0, breaks + 1], np.r_[breaks, len(ordered) - 1]
-    best = int(np.argmax(ordered[ends] - ordered[starts]))
-    return float(ordered[starts[best]]), float(ordered[ends[best]])
+    return [(float(ordered[a]), float(ordered[b])) for a, b in zip(starts, ends, strict=True)]
 
 
 def _as_one(sketch: Sketch, stretch: Stretch, limits: Limits) -> Sketch | None:
