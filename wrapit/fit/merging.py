@@ -23,6 +23,8 @@ _LOOK_MM: Final = 1.0
 _WHOLE, _REACH = 10.0, 6.0
 # Moved lines are fitted within this (mm), a tenth of what a hand can bend to.
 _TOLERANCE_MM: Final = 0.02
+# A ring is so many wire diameters long at least: round the narrowest post of a jig.
+_RING: Final = 7.0
 # Lines that meet at a node may touch this near to it (mm).
 _NODE_MM: Final = 0.05
 
@@ -49,12 +51,10 @@ def merged(sketch: Sketch, number: int, blur_mm: float, near: FloatArray | None 
     line goes. A place that moves by `blur_mm` counts as moved, less by the square.
     """
     line = sketch.lines[number]
-    if line.is_ring or _runs_beside(sketch, number):
+    if line.is_ring or _runs_beside(sketch, number, blur_mm):
         return None
     before = straight_on(sketch, (number, False))
     after = straight_on(sketch, (number, True))
-    if before is not None and after is not None and before[0] == after[0]:
-        after = None  # a ring of two lines: nothing to slide along
     cut_mm = line.curve.length / 2
     if near is not None:
         points = line.curve.sampled(STEP_MM)
@@ -83,7 +83,9 @@ def _slid(
         (after, piece(backwards, 0.0, line.curve.length - cut_mm) if cut_mm < line.curve.length else None),
     ):
         if arm is not None and part is not None:
-            grown[arm[0]] = _lengthened(sketch, arm, part, node, line.origin, at)
+            # The same line at both ends is a ring with the short one.
+            whole = grown.get(arm[0], sketch.lines[arm[0]])
+            grown[arm[0]] = _lengthened(whole, part, node, line.origin, at, last=arm[1])
     return _moved(sketch, number, at, grown, blur_mm)
 
 
@@ -151,11 +153,10 @@ def _at(curve: BezierChain, at_mm: float) -> FloatArray:
 
 
 def _lengthened(
-    sketch: Sketch, arm: Arm, part: BezierChain, node: int, origin: frozenset[int], at: FloatArray
+    line: Line, part: BezierChain, node: int, origin: frozenset[int], at: FloatArray, *, last: bool
 ) -> Line:
-    """An arm's line, going on over part of the short line; `part` runs from the arm's end to the new node."""
-    line = sketch.lines[arm[0]]
-    if arm[1]:
+    """A line, going on over part of the short one; `part` runs from the line's end to the new node."""
+    if last:
         points = joined((line.curve, part)).points.copy()
         points[-1, 3] = at
         return Line(line.start, node, BezierChain(points), line.origin | origin)
@@ -190,11 +191,15 @@ def heading(curve: BezierChain) -> FloatArray:
     return np.asarray(step / max(float(np.hypot(*step)), 1e-12))
 
 
-def _runs_beside(sketch: Sketch, number: int) -> bool:
-    """Whether another line joins the same two nodes: merging them would leave it a small ring."""
+def _runs_beside(sketch: Sketch, number: int, blur_mm: float) -> bool:
+    """Whether a short line joins the same two nodes: merging them would leave it a ring without room."""
     line = sketch.lines[number]
     ends = {line.start, line.end}
-    return any({other.start, other.end} == ends for n, other in sketch.lines.items() if n != number)
+    return any(
+        {other.start, other.end} == ends and other.curve.length < _RING * blur_mm
+        for n, other in sketch.lines.items()
+        if n != number
+    )
 
 
 def is_planar(sketch: Sketch, lines: Mapping[int, Line], before: Sketch) -> bool:
