@@ -126,7 +126,7 @@ def _add_lengths(programme: Programme, task: Task) -> None:
         programme.add_column(("unmet", n), _TOO_SHORT)
         for node in {line.start, line.end}:
             for other, gain_mm in _growth(programme, task, n, node):
-                row[other] = row.get(other, 0.0) + gain_mm
+                row[other] = min(short, row.get(other, 0.0) + gain_mm)
         programme.add_row(row, low=short)
 
 
@@ -176,30 +176,29 @@ def _add_parity(programme: Programme, task: Task) -> None:
         programme.add_row({("even", n): 1.0, ("one", n): -1.0}, high=0.0)
     for node, arms in sorted(task.sketch.arms.items()):
         single = [n for n, _ in arms if not task.sketch.lines[n].is_ring]
-        there = [(("out", n), -1.0) for n in single]
-        there += [(("even", n), 1.0) for n in single if n in task.mergeable]
         odd: Name = ("odd", node)
         programme.add_column(odd, cost, whole=False)
-        if len(there) <= _MOST_ARMS:
-            _add_odd_sets(programme, odd, [name for name, _ in there], len(single) % 2)
+        # An arm counts where it is there and not even: 1 - out - even, 0 or 1 as no merged line goes.
+        if len(single) <= _MOST_ARMS:
+            _add_odd_sets(programme, odd, single)
             continue
-        # Arms that are there + even ones = 2 · (halves) + odd.
-        halves: list[Name] = [("half", node, k) for k in range(len(there) // 2)]
+        # Arms that count = 2 · (halves) + odd.
+        halves: list[Name] = [("half", node, k) for k in range(len(single) // 2)]
         for half in halves:
             programme.add_column(half, 0.0)
-        row: dict[Name, float] = {name: -sign for name, sign in there}
+        row: dict[Name, float] = {(what, n): 1.0 for n in single for what in ("out", "even")}
         row |= dict.fromkeys(halves, 2.0)
         programme.add_row({**row, odd: 1.0}, low=len(single), high=len(single))
 
 
-def _add_odd_sets(programme: Programme, odd: Name, names: list[Name], base: int) -> None:
-    """odd = 1 wherever base + Σ names is odd: each 0-1 point of that kind is cut off unless odd is 1."""
-    for size in range(len(names) + 1):
-        if (base + size) % 2 == 0:
-            continue
-        for ones in itertools.combinations(names, size):
-            row: dict[Name, float] = {name: -1.0 if name in ones else 1.0 for name in names}
-            programme.add_row({**row, odd: 1.0}, low=1.0 - size)
+def _add_odd_sets(programme: Programme, odd: Name, arms: list[int]) -> None:
+    """odd = 1 wherever an odd number of arms counts: each 0-1 point of that kind is cut off unless odd is 1."""
+    for size in range(1, len(arms) + 1, 2):
+        for there in itertools.combinations(arms, size):
+            # Σ those that don't count of `there` + Σ those that do of the others + odd ≥ 1.
+            signs = [(n, 1.0 if n in there else -1.0) for n in arms]
+            row: dict[Name, float] = {(what, n): sign for n, sign in signs for what in ("out", "even")}
+            programme.add_row({**row, odd: 1.0}, low=1.0 - (len(arms) - size))
 
 
 def _add_breaks(programme: Programme, task: Task) -> None:
