@@ -48,9 +48,7 @@ class Programme:
         """A row; names without a column count as zero."""
         self.rows.append((coefficients, low, high))
 
-    def solve(
-        self, node_limit: int, gap: float = 0.0, held: Mapping[Name, float] | None = None
-    ) -> Optimum:
+    def solve(self, node_limit: int, gap: float = 0.0, held: Mapping[Name, float] | None = None) -> Optimum:
         """The optimum (within a share `gap` of it), or what is known of it after so many nodes.
 
         Some columns may be `held` at a value; names without a column count for nothing.
