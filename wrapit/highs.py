@@ -48,8 +48,11 @@ class Programme:
         """A row; names without a column count as zero."""
         self.rows.append((coefficients, low, high))
 
-    def solve(self, node_limit: int, gap: float = 0.0) -> Optimum:
-        """The optimum (within a share `gap` of it), or what is known of it after so many nodes."""
+    def solve(self, node_limit: int, gap: float = 0.0, held: Mapping[Name, float] | None = None) -> Optimum:
+        """The optimum (within a share `gap` of it), or what is known of it after so many nodes.
+
+        Some columns may be `held` at a value; names without a column count for nothing.
+        """
         if not self.columns:
             return Optimum({}, 0.0, 0, all(low <= 0 <= high for _, low, high in self.rows))
         from scipy.optimize import Bounds, LinearConstraint, milp
@@ -63,11 +66,15 @@ class Programme:
         ]
         rows, columns, coefficients = zip(*entries, strict=True) if entries else ((), (), ())
         matrix = csr_array((coefficients, (rows, columns)), shape=(len(self.rows), len(self.columns)))
+        low, high = np.zeros(len(self.columns)), np.ones(len(self.columns))
+        for name, value in (held or {}).items():
+            if name in self.columns:
+                low[self.columns[name]] = high[self.columns[name]] = value
         with silent_stdout():
             outcome = milp(
                 np.array(self.costs) * _SCALE,
                 integrality=np.array(self.whole, dtype=int),
-                bounds=Bounds(0, 1),
+                bounds=Bounds(low, high),
                 constraints=LinearConstraint(
                     matrix, [low for _, low, _ in self.rows], [high for _, _, high in self.rows]
                 ),

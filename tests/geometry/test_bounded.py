@@ -24,6 +24,8 @@ from wrapit.geometry import Arc, BezierChain, FloatArray, joined, straight
 from wrapit.geometry.bezier import derivative, evaluate, second_derivative
 from wrapit.geometry.bounded import Bounded, bounded
 from wrapit.geometry.outlines.loops import as_chain
+from wrapit.geometry.steering.tight import Tight
+from wrapit.geometry.steering.windows import MOST, Windows
 
 MANY = np.linspace(0, 1, 101)
 
@@ -227,3 +229,49 @@ def test_hardly_any_chain_is_given_up() -> None:
 def test_a_closed_curve_has_no_gap() -> None:
     with pytest.raises(ValueError, match="ends where it starts"):
         bounded(straight((0, 0), (5, 0)), 1.0, closed=True)
+
+
+def zigzag(count: int, pitch: float, rise: float) -> BezierChain:
+    """A way of so many corners, up and down by turns."""
+    x = np.arange(count + 2) * pitch
+    y = np.arange(count + 2) % 2 * rise
+    return joined(straight(a, b) for a, b in itertools.pairwise(zip(x.tolist(), y.tolist(), strict=True)))
+
+
+@pytest.mark.parametrize("count", [60, 240])
+@pytest.mark.parametrize(("pitch", "rise"), [(1.6, 0.8), (1.2, 0.3), (2.0, 1.2)])
+def test_a_long_way_of_tight_places_is_followed_in_parts(count: int, pitch: float, rise: float) -> None:
+    curve = zigzag(count, pitch, rise)
+    result = bounded(curve, 1.0, "placed", "placed")
+    assert result is not None
+    check(curve, result, 1.0)
+    assert max(end - start for start, end in result.spans) <= MOST
+    assert result.deviation < rise
+
+
+@settings(max_examples=40)
+@given(st.lists(st.tuples(st.floats(0.4, 4), st.floats(0.1, 3)), min_size=2, max_size=80), st.booleans())
+def test_windows_are_short_and_hold_each_tight_place_once(
+    places: list[tuple[float, float]], closed: bool
+) -> None:
+    starts = np.cumsum([gap for gap, _ in places])
+    tight = [Tight(float(at), float(at), turn) for at, (_, turn) in zip(starts, places, strict=True)]
+    length = float(starts[-1]) + 8.0  # so much stays gentle: a ring that is tight all round isn't cut
+    division = Windows(np.array([0.0, length]), 1.0, closed, False)
+    windows = division.around(tight, np.ones(len(tight)))
+    assert sorted(n for window in windows for n in window.spans) == list(range(len(tight)))
+    assert max(window.length for window in windows) <= MOST
+    for before, after in itertools.pairwise(windows):
+        assert before.end <= after.start
+    for window in windows:
+        for n in window.spans:
+            assert any(
+                window.start <= tight[n].start + lap and tight[n].end + lap <= window.end
+                for lap in (0.0, length)
+            )
+    # A cut that doesn't do is left out, and only that one.
+    cuts = frozenset().union(*(window.cuts for window in windows))
+    if cuts:
+        pair = min(cuts, key=sorted)
+        again = division.around(tight, np.ones(len(tight)), {pair})
+        assert any(pair <= set(window.spans) for window in again)

@@ -10,6 +10,7 @@ from wrapit.fit.measuring import tight_bends
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import needed_mm
 from wrapit.fit.sketch import Sketch
+from wrapit.geometry import FloatArray
 
 
 def unmet(sketch: Sketch, limits: Limits) -> tuple[Finding, ...]:
@@ -30,7 +31,8 @@ def unmet(sketch: Sketch, limits: Limits) -> tuple[Finding, ...]:
         message = f"a face stays with {face.inside_mm:.1f} mm of room, where wire needs {needed:.1f} mm"
         x, y = face.centre
         place = Removal("", (float(x), float(y)), 0.0)
-        found.append(_finding(place, message, _origin(sketch, min(face.lines))))
+        near = face.lines or frozenset([_nearest(sketch, face.centre)])
+        found.append(_finding(place, message, _origin(sketch, min(near))))
     found += [
         _finding(
             line.told("", ""),
@@ -41,6 +43,13 @@ def unmet(sketch: Sketch, limits: Limits) -> tuple[Finding, ...]:
         if tight_bends(line.curve, limits.radius_mm)
     ]
     return tuple(found)
+
+
+def _nearest(sketch: Sketch, at: FloatArray) -> int:
+    """The line nearest to a place: a face where lines cross without a node may have none of its own."""
+    from shapely import Point
+
+    return min(sorted(sketch.lines), key=lambda n: sketch.lines[n].shape.distance(Point(at)))
 
 
 def _origin(sketch: Sketch, n: int) -> int:

@@ -11,7 +11,7 @@ from wrapit.geometry.arclength import piece
 from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain, joined
 from wrapit.geometry.steering.paths import Held
-from wrapit.geometry.steering.replacing import New, crossings, replaced
+from wrapit.geometry.steering.replacing import FINE, New, crossings, replaced
 from wrapit.geometry.steering.tight import tight_places
 from wrapit.geometry.steering.windows import Window, Windows
 
@@ -55,8 +55,9 @@ def bounded(
     wide = np.ones(len(tight))
     paths: dict[tuple[float, float], New | None] = {}
     best: Bounded | None = None
+    whole: set[frozenset[int]] = set()
     for _ in range(TRIES):
-        windows = division.around(tight, wide)
+        windows = division.around(tight, wide, whole)
         for window in windows:
             if window.ends not in paths:
                 paths[window.ends] = _path(curve, length, radius, window, (start, end), closed)
@@ -65,7 +66,7 @@ def bounded(
         if result is None:
             widened = [window for window in windows if window not in new]
         elif crossings(result.curve, radius) > crossings(curve, radius):
-            widened = windows
+            widened = _crossing(curve, length, radius, new) or windows
         elif best is None and result.deviation > FAR * radius:
             best, widened = result, [window for window in windows if new[window].deviation > FAR * radius]
         else:
@@ -74,6 +75,7 @@ def bounded(
             break
         for window in widened:
             wide[list(window.spans)] *= WIDER
+            whole |= window.cuts
     return best
 
 
@@ -114,6 +116,21 @@ def _assembled(curve: BezierChain, length: float, new: dict[Window, New]) -> Bou
     deviation = max(path.deviation for path in new.values())
     spans = tuple((float(window.start), float(window.end)) for window in new)
     return Bounded(_chained(parts), deviation, spans)
+
+
+def _crossing(curve: BezierChain, length: float, radius: float, new: dict[Window, New]) -> list[Window]:
+    """The windows whose new paths cross one another, or what stays of the curve."""
+    import shapely
+
+    windows, parts = list(new), [path.curve for path in new.values()]
+    at = max(0.0, windows[-1].end - length) if windows[-1].length < length else 0.0
+    for window in (*windows, Window(length, length, ())):
+        if window.start > at + NOTHING * length:
+            parts.append(piece(curve, at, min(window.start, length)))
+        at = max(at, window.end)
+    lines = [shapely.LineString(part.sampled(FINE * radius)) for part in parts]
+    crossed = set(shapely.STRtree(lines).query(lines, predicate="crosses").ravel().tolist())
+    return [window for number, window in enumerate(windows) if number in crossed]
 
 
 def _divided(path: BezierChain, near: FloatArray) -> tuple[BezierChain, BezierChain]:

@@ -1,0 +1,75 @@
+"""Large sketches are chosen from region by region: every line is looked at, mirror images together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.bench.large_drawings import drawing_text
+from wrapit.config import Config
+from wrapit.drawing.stage import trace
+from wrapit.fit import programme
+from wrapit.fit.faces import faces_of
+from wrapit.fit.limits import limits_of
+from wrapit.fit.programme import Choice, Task, Weights, choose
+from wrapit.fit.regions import regions
+from wrapit.fit.sketch import Line, Sketch
+from wrapit.fit.worth import worths
+from wrapit.geometry import straight
+
+
+@settings(max_examples=50)
+@given(
+    st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=1, max_size=90),
+    st.integers(2, 40),
+    st.booleans(),
+)
+def test_regions_cover_all_lines(places: list[tuple[float, float]], size: int, mirrored: bool) -> None:
+    lines = {
+        n: Line(2 * n, 2 * n + 1, straight((x, y), (x + 1, y)), frozenset((n,)))
+        for n, (x, y) in enumerate(places)
+    }
+    ends = {node: np.zeros(2) for line in lines.values() for node in (line.start, line.end)}
+    last = len(lines) - 1
+    pairs = {n: last - n for n in lines} if mirrored else {}
+    found = list(regions(Sketch(ends, lines), lines, pairs, size))
+    assert frozenset().union(*found) == set(lines)
+    for region in found:
+        assert {pairs.get(n, n) for n in region} == region
+        assert len({frozenset((n, pairs.get(n, n))) for n in region}) <= size
+
+
+def _task(folder: Path, kind: str, segments: int) -> Task:
+    path = folder / "net.json"
+    path.write_text(drawing_text(kind, segments, 60))
+    config = Config.model_validate({"drawing": str(path), "size": "60 mm", "wire": {"gauge": "18 AWG"}})
+    drawing, _ = trace(path, config.tracing, config.size)
+    sketch, limits = Sketch.of(drawing).simplified(), limits_of(config, "bold")
+    faces = faces_of(sketch)
+    worth = worths(sketch, faces, limits)
+    return Task(sketch, faces, worth, limits, {}, frozenset(), {}, Weights(6.0, few=6, more_mm=5.0))
+
+
+def _cost(task: Task, choice: Choice) -> float:
+    """What is sure to be paid: what leaves the eye, and half a wire for each odd node."""
+    left = task.sketch.changed(choice.dropped)
+    odd = sum(len(arms) % 2 for arms in left.arms.values())
+    return sum(task.worth[n] for n in choice.dropped) + 3 * odd + 2.5 * max(0, odd - 12)
+
+
+@pytest.mark.parametrize("kind", ["cells", "grid"])
+def test_region_by_region_costs_little_more(
+    tmp_path: Path, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task = _task(tmp_path, kind, 90)
+    assert len(task.sketch.lines) > programme._EXACT
+    by_region = choose(task)
+    monkeypatch.setattr(programme, "_EXACT", 1000)
+    at_once = choose(task)
+    assert by_region.unmet <= at_once.unmet
+    assert _cost(task, by_region) <= 1.15 * _cost(task, at_once)
+    assert not list(programme._parted(task.sketch, set(by_region.dropped)))
