@@ -53,8 +53,32 @@ def merged(sketch: Sketch, number: int, blur_mm: float, near: FloatArray | None 
     line = sketch.lines[number]
     if line.is_ring or _runs_beside(sketch, number, blur_mm):
         return None
-    before = straight_on(sketch, (number, False))
-    after = straight_on(sketch, (number, True))
+    before, after = straight_on(sketch, (number, False)), straight_on(sketch, (number, True))
+    result = _at_best(sketch, number, before, after, blur_mm, near)
+    if result is None and before is not None and after is not None and before[0] == after[0]:
+        # A ring of two lines: what runs along the short one beside it goes straight on as well.
+        ways = [_beside(sketch, (number, last), before[0]) for last in (False, True)]
+        return _at_best(sketch, number, ways[0], ways[1], blur_mm, near)
+    return result
+
+
+def _beside(sketch: Sketch, arm: Arm, other: int) -> Arm | None:
+    """The straightest arm that isn't of another line."""
+    line = sketch.lines[arm[0]]
+    arms = sketch.arms[line.end if arm[1] else line.start]
+    return _straightest(sketch, arm, [each for each in arms if each != arm and each[0] != other])
+
+
+def _at_best(
+    sketch: Sketch,
+    number: int,
+    before: Arm | None,
+    after: Arm | None,
+    blur_mm: float,
+    near: FloatArray | None,
+) -> Merger | None:
+    """The two ends of a line as one node, given the arms into which it goes straight on."""
+    line = sketch.lines[number]
     cut_mm = line.curve.length / 2
     if near is not None:
         points = line.curve.sampled(STEP_MM)
