@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 # How exactly the largest circle inside is found.
 _CIRCLE_MM = 0.01
-# A place is on a boundary within rounding, and what is thinner than this is a crossing of chords, unless it is
-# longer than chords of lines that part ever cross (mm): then two lines lie on one another.
+# A place is on a boundary within rounding, and what is thinner than this is a crossing of chords, unless it
+# is longer (mm) than chords of lines that part ever cross: then two lines lie on one another.
 _ON_MM = 1e-6
 _SLIVER = 5e-3
 _CROSSING_MM = 2.0

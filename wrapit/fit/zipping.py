@@ -99,7 +99,9 @@ def _near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, i
     points = [sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers]
     every = np.concatenate(points)
     owner = np.repeat(numbers, [len(each) for each in points])
-    at = np.concatenate([_along(sketch.lines[n].curve, each) for n, each in zip(numbers, points, strict=True)])
+    at = np.concatenate(
+        [_along(sketch.lines[n].curve, each) for n, each in zip(numbers, points, strict=True)]
+    )
     pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
     far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > _PARTING * room_mm
     pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
