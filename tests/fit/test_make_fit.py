@@ -132,7 +132,7 @@ def test_what_is_mirrored_or_turned_comes_out_mirrored_or_turned(kind, seed, siz
 
 
 def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself() -> None:
-    """Of a fixed list three in four at least: where twins run along one another, one is led into the other."""
+    """Three in four of a fixed list: where twins run along one another, one is led into the other."""
     alike, asked = 0, 0
     for number, kind in enumerate(("net", "comb", "tips", "scribble", "tree") * 4):
         size_mm, gauge, level = ((25.0, 22, "gentle"), (50.0, 18, "bold"), (80.0, 20, "bold"))[number % 3]

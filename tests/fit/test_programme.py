@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import cache
 
 import numpy as np
 
@@ -104,6 +105,7 @@ def task_of(sketch: Sketch, faces: Faces, limits: Limits, level: str) -> Task:
     return Task(sketch, faces, worths(sketch, faces, limits), limits, {}, frozenset(), {}, LEVELS[level])
 
 
+@cache
 def small_tasks() -> list[tuple[str, Task]]:
     """Drawings of at most seven lines, wherever something is wrong with them."""
     found = []
@@ -144,7 +146,7 @@ def test_lines_that_stay_are_never_chosen() -> None:
 
 
 def test_images_are_chosen_alike() -> None:
-    for kind, seed in itertools.product(("comb", "net", "tree"), range(4)):
+    for kind, seed in itertools.product(("comb", "tips", "tree"), range(2)):
         sketch = Sketch.of(drawn(kind, seed, 40.0, twin=True)).simplified()
         limits = limits_of(config("bold", 18), "bold")
 
