@@ -78,11 +78,13 @@ def _finger(rng: Rng, size_mm: float) -> Lines:
         wide, tall, x = rng.uniform(0.8, 4), rng.uniform(6, size_mm / 2), (n + 0.5) * step
         line += [np.array(p) for p in ((x - wide / 2, 0.0), (x - wide / 2, tall), (x, tall + wide / 2),
                                        (x + wide / 2, tall), (x + wide / 2, 0.0))]  # fmt: skip
-    line += [np.array(p) for p in ((size_mm, 0.0), (size_mm, -0.3 * size_mm), (0.0, -0.3 * size_mm), (0.0, 0.0))]
+    line += [
+        np.array(p) for p in ((size_mm, 0.0), (size_mm, -0.3 * size_mm), (0.0, -0.3 * size_mm), (0.0, 0.0))
+    ]
     return [np.array(line)]
 
 
-def _tips(rng: Rng, size_mm: float) -> Lines:
+def _tips(rng: Rng, _: float) -> Lines:
     """A zigzag whose tips have 10 to 170 degrees."""
     at, heading, line = np.zeros(2), 0.0, [np.zeros(2)]
     for n in range(int(rng.integers(3, 9))):
@@ -109,7 +111,7 @@ def _net(rng: Rng, size_mm: float) -> Lines:
     return lines or [places[:2]]
 
 
-def _grate(rng: Rng, size_mm: float) -> Lines:
+def _grate(rng: Rng, _: float) -> Lines:
     """Bars both ways, 0.7 to 8 mm apart."""
     bars = [np.cumsum(rng.uniform(0.7, 8, int(rng.integers(2, 5)))) for _ in range(2)]
     ends = [max(each[-1] for each in bars) + 5, -5.0]
