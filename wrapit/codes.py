@@ -78,6 +78,10 @@ DRAWING: Final = {
     ),
     "undrawn": Saying("no dash falls on a line, as before an animation", "remove `stroke-dasharray`"),
     "uneven-paper": Saying("uneven light was divided out", NOTHING),
+    "unfit": Saying(
+        "something stays that wire can't follow, though the drawing was made fit",
+        "drop or keep what the message names, or make the piece larger",
+    ),
 }
 """What was read from the drawing, and what wasn't."""
 
