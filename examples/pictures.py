@@ -14,10 +14,10 @@ from PIL import Image, ImageOps
 
 from wrapit.config import Config, load_config
 from wrapit.decomposition.stage import decompose
-from wrapit.drawing.stage import trace
 from wrapit.exports.preview_png import write_preview
 from wrapit.exports.view_png import write_view
 from wrapit.jig.kinds import JIGS
+from wrapit.pipeline.trying.tried import read
 from wrapit.wires.stage import draw_wires
 
 CONFIGS = Path(__file__).parent.parent / "configs"
@@ -29,7 +29,7 @@ PAPER = (250, 249, 246)
 
 def take(config: Config, name: str, folder: Path) -> tuple[Path, Path, Path]:
     """Pictures of a piece's wires, and of its (first) jig from above and at an angle."""
-    drawing, _ = trace(CONFIGS / config.drawing, config.tracing, config.size)
+    drawing, _ = read(config, CONFIGS / config.drawing)
     solution, _ = decompose(drawing, config.decomposition)
     wires, _ = draw_wires(solution, config)
     paths = folder / f"{name}-wires.png", folder / f"{name}-jig.png", folder / f"{name}-view.png"

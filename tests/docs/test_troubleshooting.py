@@ -30,6 +30,7 @@ ELSEWHERE = {
     ("drawing/svg/remarks.py", "code"): {code for code, *_ in remarks._KINDS.values()},
     # Recalled as they were given.
     ("pipeline/cache/remembering.py", "{**said, 'places_mm': tuple(said['places_mm'])}"): set(),
+    ("jig/printed/seats.py", "code"): {"bead-without-seat", "bead-below-plate"},
     ("jig/sheet/shops.py", "f'shop-narrow-{what}'"): {"shop-narrow-hole", "shop-narrow-part"},
 }
 
