@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from wrapit.config import Config
 from wrapit.fit.beading.beads import LARGEST_MM, SMALLEST_MM, beaded, passing
 from wrapit.fit.limits import limits_of
-from wrapit.fit.measuring import corners
 from wrapit.fit.model import Bead
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry import BezierChain, FloatArray, straight
+from wrapit.geometry.steering.tight import bends, headings_of
 
 LIMITS = limits_of(Config(drawing="x"), "gentle")
 # A quarter of a circle of radius 1 as a cubic.
@@ -96,7 +96,9 @@ def test_what_is_round_and_of_a_bead_s_size_becomes_one_and_nothing_else(radius,
     (line,) = after.lines.values()
     assert bead.segment in after.lines
     assert far_of(line.curve, bead.at) < 0.02
-    assert corners(line.curve).max(initial=0.0) < 0.05, "it runs through smoothly"
+    assert bends(headings_of(line.curve.points, np.array([0.0, 1.0])))[:-1].max(initial=0.0) < 0.05, (
+        "it runs through smoothly"
+    )
     (told,) = after.removed
     assert told.what == "bead"
     assert told.at == pytest.approx(tuple(bead.at))

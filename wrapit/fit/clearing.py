@@ -152,7 +152,11 @@ def _groups(sketch: Sketch, numbers: frozenset[int], pairs: Mapping[int, int]) -
         group.setdefault(joint.find(sketch.lines[n].start), []).append(n)
     of = {n: root for root, some in group.items() for n in some}
     both = {frozenset({root, of.get(pairs.get(some[0], some[0]), root)}) for root, some in group.items()}
-    return [[group[root] for root in sorted(roots)] for roots in sorted(both, key=sorted)]
+    alike = [[group[root] for root in sorted(roots)] for roots in both]
+    # The shortest first, however they are numbered.
+    return sorted(
+        alike, key=lambda some: (round(sum(sketch.lines[n].curve.length for n in some[0]), 3), some)
+    )
 
 
 def _without(sketch: Sketch, dropped: frozenset[int], faces: Faces, limits: Limits) -> Sketch:

@@ -15,9 +15,11 @@ if TYPE_CHECKING:
 
 # How exactly the largest circle inside is found.
 _CIRCLE_MM = 0.01
-# A place is on a boundary within rounding, and what is thinner than this is a crossing of chords.
+# A place is on a boundary within rounding, and what is thinner than this is a crossing of chords, unless it
+# is longer than chords of lines that part ever cross (mm): then two lines lie on one another.
 _ON_MM = 1e-6
 _SLIVER = 5e-3
+_CROSSING_MM = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +48,11 @@ def faces_of(sketch: Sketch) -> Faces:
     points = [sketch.lines[number].curve.sampled(STEP_MM) for number in numbers]
     # Cut where they cross: a line that touches itself by a micron would lose its whole face.
     cut = shapely.union_all([sketch.lines[number].shape for number in numbers])
-    polygons = [each for each in shapely.polygonize([cut]).geoms if each.area > _SLIVER * each.length]
+    polygons = [
+        each
+        for each in shapely.polygonize([cut]).geoms
+        if each.area > _SLIVER * each.length or each.length > 2 * _CROSSING_MM
+    ]
     middles = shapely.points([_inner_place(each) for each in points])
     if not polygons:
         return Faces((), frozenset(numbers))

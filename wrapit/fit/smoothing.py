@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
+
 from wrapit.drawing.model import Removal
 from wrapit.fit.measuring import tight_bends
 from wrapit.fit.merging import is_planar, straight_on
 from wrapit.fit.model import Limits
-from wrapit.fit.sketch import Line, Sketch
-from wrapit.geometry.arclength import piece
+from wrapit.fit.sketch import STEP_MM, Line, Sketch
 from wrapit.geometry.bounded import Bounded, bounded
+from wrapit.geometry.polyline import lengths
 from wrapit.geometry.steering.paths import Held
 
 # How an end may be held where it can't be as firmly as it should.
@@ -28,7 +30,8 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     loose end may move. An end is held less firmly where the line stays much nearer to the drawing so. A line
     that can't be widened without crossing another stays.
     """
-    tight = [n for n, line in sorted(sketch.lines.items()) if tight_bends(line.curve, limits.radius_mm)]
+    tight = [n for n, line in sketch.lines.items() if tight_bends(line.curve, limits.radius_mm)]
+    tight.sort(key=lambda n: (-round(sketch.lines[n].curve.length, 3), n))  # however they are numbered
     ways = {n: _ways(sketch, n, limits) for n in tight}
     for n in tight:
         line = sketch.lines[n]
@@ -70,9 +73,11 @@ def _held(sketch: Sketch, n: int, *, last: bool) -> Held:
 
 def _told(line: Line, found: Bounded, limits: Limits) -> tuple[Removal, ...]:
     told = []
+    points = line.curve.sampled(STEP_MM)
+    along = lengths(points)
     for a, b in found.spans:
-        length = line.curve.length
-        x, y = piece(line.curve, 0.0, ((a + b) / 2) % length or length).end
+        # A span of a ring may run on over where it starts.
+        x, y = points[np.argmin(np.abs(along - (a + b) / 2 % line.curve.length))]
         told.append(
             Removal(
                 "faired",

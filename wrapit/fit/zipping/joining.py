@@ -13,7 +13,7 @@ from wrapit.drawing.reflection import Axis
 from wrapit.fit.merging import is_planar, led
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Line, Sketch
-from wrapit.fit.zipping.stretches import PARTING, Stretch, near_places
+from wrapit.fit.zipping.stretches import PARTING, Stretch, near_places, runs
 from wrapit.geometry import BezierChain, FloatArray, straight
 from wrapit.geometry.arclength import piece
 
@@ -92,7 +92,7 @@ def _onto(axis: Axis, sketch: Sketch, nodes: set[int], limits: Limits) -> Sketch
 
 
 def folded(sketch: Sketch, limits: Limits) -> Sketch:
-    """Lines that come near themselves get a node half way: they are two that run along one another."""
+    """Lines that come near themselves get a node half way of each bight: two that run along one another."""
     way_mm = 2 * PARTING * limits.room_mm
     half: dict[int, list[float]] = {}
     for one, at, other, other_at, _ in near_places(sketch, limits.room_mm):
@@ -104,10 +104,14 @@ def folded(sketch: Sketch, limits: Limits) -> Sketch:
         ):
             half.setdefault(one, []).append((at + other_at) / 2)
     for number, places in sorted(half.items()):
-        line, at_mm, node = sketch.lines[number], float(np.median(places)), max(sketch.nodes) + 1
-        points = {**sketch.nodes, node: piece(line.curve, 0.0, at_mm).end}
-        names = {0.0: line.start, at_mm: node, line.curve.length: line.end}
-        sketch = sketch.changed((number,), _cut(sketch, number, names, points), {node: points[node]})
+        line, free = sketch.lines[number], max(sketch.nodes) + 1
+        names = {0.0: line.start, line.curve.length: line.end}
+        nodes: dict[int, FloatArray] = {}
+        for low, high in runs(np.array(places), limits.room_mm):
+            at_mm = float(np.median([place for place in places if low <= place <= high]))
+            names[at_mm] = free + len(nodes)
+            nodes[names[at_mm]] = piece(line.curve, 0.0, at_mm).end
+        sketch = sketch.changed((number,), _cut(sketch, number, names, {**sketch.nodes, **nodes}), nodes)
     return sketch
 
 

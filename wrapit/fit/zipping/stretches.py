@@ -10,7 +10,7 @@ import numpy as np
 
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Sketch
-from wrapit.geometry import FloatArray, unit
+from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.polyline import lengths
 
 # How finely lines are compared (mm).
@@ -24,6 +24,8 @@ _PARALLEL: Final = 0.21
 PARTING: Final = 3.0
 # They run along one another where they are near for so many rooms; less is a meeting.
 _ALONG: Final = 2.0
+# Places of a line that are as near as that (mm) to one another line's: which is nearer is chance.
+_ALIKE_MM: Final = 1e-6
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ def stretches(
     for one, at, other, other_at, gap in near_places(sketch, room_mm):
         if one != other and not _part_there(sketch, one, at, other, other_at, PARTING * room_mm):
             near.setdefault((one, other), []).append((at, other_at, gap))
-    found = []
+    found: list[tuple[tuple[float, ...], Stretch]] = []
     for (one, other), places in sorted(near.items()):
         table = np.array(places)
         if min(np.ptp(table[:, 0]), np.ptp(table[:, 1])) < _ALONG * room_mm:
@@ -62,13 +64,21 @@ def stretches(
             continue
         lesser = 0 if (kept[0], weight[0], one) < (kept[1], weight[1], other) else 1
         own = table[:, lesser]
-        low, high = _run(own, room_mm)
-        ends = [table[np.flatnonzero(own == each)] for each in (low, high)]
-        beside = [float(each[np.argmin(each[:, 2]), 1 - lesser]) for each in ends]
-        if high - low >= _ALONG * room_mm and abs(beside[1] - beside[0]) >= room_mm:
-            pair = (one, other)
-            found.append(Stretch(pair[lesser], pair[1 - lesser], (low, high), (beside[0], beside[1])))
-    return sorted(found, key=lambda s: (-round(s.span_mm[1] - s.span_mm[0], 6), s.line, s.other))
+        pair = (one, other)
+        for low, high in runs(own, room_mm):
+            beside = (_beside(table, lesser, low), _beside(table, lesser, high))
+            if high - low >= _ALONG * room_mm and abs(beside[1] - beside[0]) >= room_mm:
+                stretch = Stretch(pair[lesser], pair[1 - lesser], (low, high), beside)
+                # Of some as long that with the least lines comes first, however they are numbered.
+                rank = np.round((low - high, weight[lesser], weight[1 - lesser]), 3).tolist()
+                found.append(((*rank, *pair, low), stretch))
+    return [stretch for _, stretch in sorted(found, key=lambda each: each[0])]
+
+
+def _beside(table: FloatArray, lesser: int, at_mm: float) -> float:
+    """The place on the other line that is nearest to one on the lesser; the middle of those as near."""
+    there = table[table[:, lesser] == at_mm]
+    return float(there[there[:, 2] < there[:, 2].min() + _ALIKE_MM, 1 - lesser].mean())
 
 
 def near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, int, float, float]]:
@@ -79,7 +89,9 @@ def near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, in
     points = [sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers]
     every = np.concatenate(points)
     owner = np.repeat(numbers, [len(each) for each in points])
-    at = np.concatenate([lengths(each) for each in points])
+    at = np.concatenate(
+        [_along(sketch.lines[n].curve, each) for n, each in zip(numbers, points, strict=True)]
+    )
     pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
     far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > PARTING * room_mm
     pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
@@ -89,6 +101,12 @@ def near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, in
     apart = np.hypot(*(every[pairs[:, 0]] - every[pairs[:, 1]]).T)
     for (i, j), gap in zip(pairs.tolist(), apart.tolist(), strict=True):
         yield int(owner[i]), float(at[i]), int(owner[j]), float(at[j]), gap
+
+
+def _along(curve: BezierChain, points: FloatArray) -> FloatArray:
+    """Where along a curve its points are: chords alone are shorter than its bends, by 0.05 mm in some."""
+    chords = lengths(points)
+    return chords * (curve.length / max(float(chords[-1]), 1e-12))
 
 
 def _part_there(
@@ -105,10 +123,9 @@ def _part_there(
     )
 
 
-def _run(places_mm: FloatArray, gap_mm: float) -> tuple[float, float]:
-    """The longest run of places without a gap."""
+def runs(places_mm: FloatArray, gap_mm: float) -> list[tuple[float, float]]:
+    """Runs of places without a gap."""
     ordered = np.unique(places_mm)
     breaks = np.flatnonzero(np.diff(ordered) > gap_mm)
     starts, ends = np.r_[0, breaks + 1], np.r_[breaks, len(ordered) - 1]
-    best = int(np.argmax(ordered[ends] - ordered[starts]))
-    return float(ordered[starts[best]]), float(ordered[ends[best]])
+    return [(float(ordered[a]), float(ordered[b])) for a, b in zip(starts, ends, strict=True)]

@@ -26,22 +26,28 @@ def zipped(sketch: Sketch, limits: Limits, worth: Mapping[int, float], keep: fro
     """
     density = {sketch.lines[n].origin: worth[n] / sketch.lines[n].curve.length for n in worth}
     sketch = folded(sketch, limits)
-    passed: set[_Names] = set()
+    failed: set[tuple[object, ...]] = set()
     for _ in range(_MOST):
         found = stretches(sketch, limits, density, keep)
-        stretch = next((s for s in found if _names(sketch, s) not in passed), None)
+        stretch = next((s for s in found if _name(sketch, s) not in failed), None)
         if stretch is None:
             break
         mirror = mirror_of(sketch)
         image = _image(sketch, stretch, mirror)
-        passed.add(_names(sketch, stretch))
         between = mirror.pairs.get(stretch.line) == stretch.other
         result = as_one(sketch, stretch, limits, mirror.axis if between else None)
-        if image is not None:
-            passed.add(image)
-            result = None if result is None else _other_side(result, image, limits, density, keep)
-        sketch = result or sketch
+        if image is not None and result is not None:
+            result = _other_side(result, image, limits, density, keep)
+        if result is None:
+            failed.add(_name(sketch, stretch))
+        else:
+            sketch = result
     return sketch
+
+
+def _name(sketch: Sketch, stretch: Stretch) -> tuple[object, ...]:
+    """What a stretch is known by while numbers of lines change: the lines' origins, and where they begin."""
+    return *_names(sketch, stretch), round(stretch.span_mm[0], 3), round(stretch.beside_mm[0], 3)
 
 
 def _names(sketch: Sketch, stretch: Stretch) -> _Names:
