@@ -31,7 +31,8 @@ def unmet(sketch: Sketch, before: Sketch, limits: Limits, config: Config) -> tup
     found = []
     for n in short_lines(sketch, limits):
         line = sketch.lines[n]
-        message = f"a line of {line.curve.length:.1f} mm stays, shorter than can be bent ({limits.shortest_mm:g} mm)"
+        long_mm, least_mm = f"{line.curve.length:.1f} mm", f"{limits.shortest_mm:g} mm"
+        message = f"a line of {long_mm} stays, shorter than can be bent ({least_mm})"
         found.append(told(line.told("", "").at, message, line.origin))
     faces = faces_of(sketch)
     for index in small_faces(sketch, faces, limits):
