@@ -51,7 +51,9 @@ DRAWING: Final = {
     "light-on-dark": Saying("light lines on dark ground were traced", NOTHING),
     "markers-left-out": Saying("arrowheads are left out", "draw them as lines of their own"),
     "masked": Saying("a mask of an SVG file isn't read: all of the line is taken", "release the mask"),
-    "no-bead": Saying("a dot of the drawing becomes no bead", "draw it beside a line, or as a ring on one"),
+    "no-bead": Saying(
+        "a dot or ring of the drawing becomes no bead", "draw it beside a line, or as a ring on one"
+    ),
     "other-file": Saying(
         "an SVG file refers to another file, which is never loaded", "embed it, or remove it"
     ),
@@ -78,6 +80,10 @@ DRAWING: Final = {
     ),
     "undrawn": Saying("no dash falls on a line, as before an animation", "remove `stroke-dasharray`"),
     "uneven-paper": Saying("uneven light was divided out", NOTHING),
+    "unfit": Saying(
+        "something stays that wire can't follow, though the drawing was made fit",
+        "drop or keep what the message names, or make the piece larger",
+    ),
 }
 """What was read from the drawing, and what wasn't."""
 

@@ -12,7 +12,7 @@ from tests.fit.drawn import config, drawn
 from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.merging import heading
-from wrapit.fit.mirrored import mirror_pairs
+from wrapit.fit.mirrored import mirror_of
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import Task, Weights, choose
 from wrapit.fit.sketch import Sketch
@@ -150,7 +150,7 @@ def test_images_are_chosen_alike() -> None:
         sketch = Sketch.of(drawn(kind, seed, 40.0, twin=True)).simplified()
         limits = limits_of(config("bold", 18), "bold")
 
-        pairs, faces = mirror_pairs(sketch), faces_of(sketch)
+        pairs, faces = mirror_of(sketch), faces_of(sketch)
         task = Task(
             sketch, faces, worths(sketch, faces, limits), limits, {}, frozenset(), pairs, LEVELS["bold"]
         )

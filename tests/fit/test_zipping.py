@@ -16,7 +16,7 @@ from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.worth import worths
-from wrapit.fit.zipping import zipped
+from wrapit.fit.zipping.zipped import zipped
 
 LIMITS = limits_of(config("bold", 18), "bold")
 SOME = settings(max_examples=12, deadline=None, derandomize=True)

@@ -146,7 +146,10 @@ def test_the_line_of_the_summary() -> None:
         "fit bold: 130 -> 52 segments, 28 -> 1 wire, no bend too tight; 8% of the lines left out"
     )
     fit |= {"after": after | {"tight_bends": 1}, "beads": [{}, {}]}
-    assert "1 bend too tight, 2 beads;" in fit_line(fit)
+    assert "1 bend too tight, 2 beads; 8% of the lines left out or beads" in fit_line(fit)
+    assert fit_line(fit | {"level": "off", "changes": {"bead": 2}}).startswith("with beads: ")
+    asked = fit | {"level": "off", "changes": {"bead": 2, "dropped": 1}}
+    assert fit_line(asked).startswith("left out as asked: ")
 
 
 @pytest.mark.parametrize("setting", ["drop=[{last}]", "fit=gentle;keep=[99]", "fit=bold;keep=[0];drop=[0]"])

@@ -89,7 +89,7 @@ class Config(Block):
         default="off", json_schema_extra={"enum": ["off", "gentle", "bold", False]}
     )
     """Make the drawing fit for this wire first: round what is too tight, merge and leave out what is too
-    small, `gentle` only where it has to be, `bold` for few wires and wide bends."""
+    small, `gentle` only where it has to be, `bold` for few wires and much room."""
 
     keep: tuple[Numbered, ...] = Field(default=(), max_length=1000, examples=[[3, 7]])
     """Segments that `fit` doesn't leave out; numbers as in the drawing that was read."""

@@ -15,7 +15,7 @@ from wrapit.geometry.disjoint_sets import Sets
 from wrapit.geometry.steering.tight import tight_places
 
 # What turns by less (rad) is no bend: joints of drawings are that exact, and no hand.
-_NOISE_RAD: Final = 2e-3
+NOISE_RAD: Final = 2e-3
 # How finely distances of lines are measured.
 _STEP_MM: Final = 0.1
 
@@ -45,7 +45,7 @@ def fewest_wires(sketch: Sketch) -> int:
 
 def tight_bends(curve: BezierChain, radius_mm: float) -> int:
     """How many stretches of a curve bend more tightly than a radius; a corner is one."""
-    return sum(bool(place.turn > _NOISE_RAD) for place in tight_places(curve, radius_mm, closed=False))
+    return sum(bool(place.turn > NOISE_RAD) for place in tight_places(curve, radius_mm, closed=False))
 
 
 def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits) -> Costs:

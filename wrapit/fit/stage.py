@@ -39,7 +39,7 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
         after, beads = beaded(after, limits, config.keep, [dot.at for dot in drawing.dots])
     if config.fit != "off":
         after = _fit(after, limits, config.fit, frozenset(config.keep))
-        findings = unmet(after, limits)
+        findings = unmet(after, before, limits, config)
     if config.beads == "auto":
         after, beads, said = beads_of(after, beads, drawing.dots, limits)
         findings = (*findings, *said)

@@ -1,67 +1,89 @@
-"""What couldn't be made fit, told as findings."""
+"""What couldn't be made fit, told as findings with a remedy that the config takes."""
 
 from __future__ import annotations
 
-from wrapit.drawing.model import Removal
+from collections.abc import Iterable
+
+from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.fit.clearing import short_lines, small_faces
 from wrapit.fit.faces import faces_of
-from wrapit.fit.measuring import tight_bends
+from wrapit.fit.measuring import NOISE_RAD
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import needed_mm
-from wrapit.fit.sketch import Sketch
+from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry import FloatArray
+from wrapit.geometry.arclength import piece
+from wrapit.geometry.steering.tight import tight_places
 
 
-def unmet(sketch: Sketch, limits: Limits) -> tuple[Finding, ...]:
-    """A finding for each line that is still too short or too tight, and each face that is still too small."""
-    found = [
-        _finding(
-            sketch.lines[n].told("", ""),
-            f"a line of {sketch.lines[n].curve.length:.1f} mm stays, shorter than can be bent "
-            f"({limits.shortest_mm:g} mm)",
-            _origin(sketch, n),
-        )
-        for n in short_lines(sketch, limits)
-    ]
+def unmet(sketch: Sketch, before: Sketch, limits: Limits, config: Config) -> tuple[Finding, ...]:
+    """A finding for each line that is still too short or too tight, and each face that is still too small.
+
+    `before` is the drawing as it was read, whose numbers the remedies name.
+    """
+
+    def told(at: Iterable[float], message: str, origins: Iterable[int]) -> Finding:
+        x, y = at
+        remedy = _remedy(frozenset(origins), len(before.lines), config)
+        return Finding("warning", "unfit", f"drawing at {x:.1f}, {y:.1f} mm", message, remedy)
+
+    found = []
+    for n in short_lines(sketch, limits):
+        line = sketch.lines[n]
+        long_mm, least_mm = f"{line.curve.length:.1f} mm", f"{limits.shortest_mm:g} mm"
+        message = f"a line of {long_mm} stays, shorter than can be bent ({least_mm})"
+        found.append(told(line.told("", "").at, message, line.origin))
     faces = faces_of(sketch)
     for index in small_faces(sketch, faces, limits):
         face = faces.faces[index]
         needed = needed_mm(sketch, face.lines, limits)
         message = f"a face stays with {face.inside_mm:.1f} mm of room, where wire needs {needed:.1f} mm"
-        x, y = face.centre
-        place = Removal("", (float(x), float(y)), 0.0)
-        near = face.lines or frozenset([_nearest(sketch, face.centre)])
-        found.append(_finding(place, message, _origin(sketch, min(near))))
-    found += [
-        _finding(
-            line.told("", ""),
-            f"a line stays with a bend tighter than {limits.radius_mm:.2f} mm: there is no room to widen it",
-            _origin(sketch, n),
-        )
-        for n, line in sorted(sketch.lines.items())
-        if tight_bends(line.curve, limits.radius_mm)
-    ]
+        # Where lines cross without a node, a face may have no line of its own.
+        lines = face.lines or frozenset([_line_at(sketch, face.centre)])
+        least = min(lines, key=lambda n: (sketch.lines[n].curve.length, n))
+        found.append(told(face.centre, message, sketch.lines[least].origin))
+    for _, line in sorted(sketch.lines.items()):
+        at = _tightest(line, limits)
+        if at is not None:
+            message = f"a bend tighter than {limits.radius_mm:.2f} mm stays: there is no room to widen it"
+            found.append(told(at, message, (_nearest(at, line, before),)))
     return tuple(found)
 
 
-def _nearest(sketch: Sketch, at: FloatArray) -> int:
-    """The line nearest to a place: a face where lines cross without a node may have none of its own."""
-    from shapely import Point
-
-    return min(sorted(sketch.lines), key=lambda n: sketch.lines[n].shape.distance(Point(at)))
-
-
-def _origin(sketch: Sketch, n: int) -> int:
-    return min(sketch.lines[n].origin)
+def _tightest(line: Line, limits: Limits) -> FloatArray | None:
+    """Where a line turns most of all that is too tight, (2,); None where nothing is."""
+    tight = tight_places(line.curve, limits.radius_mm, closed=False)
+    if not any(each.turn > NOISE_RAD for each in tight):
+        return None
+    worst = max(tight, key=lambda each: each.turn)
+    return piece(line.curve, 0.0, (worst.start + worst.end) / 2).end
 
 
-def _finding(place: Removal, message: str, origin: int) -> Finding:
-    x, y = place.at
-    return Finding(
-        "warning",
-        "unfit",
-        f"drawing at {x:.1f}, {y:.1f} mm",
-        message,
-        f"leave it out with drop: [{origin}], or make the piece larger",
-    )
+def _line_at(sketch: Sketch, at: FloatArray) -> int:
+    """The line nearest to a place."""
+    import shapely
+
+    return min(sorted(sketch.lines), key=lambda n: sketch.lines[n].shape.distance(shapely.Point(at)))
+
+
+def _nearest(at: FloatArray, line: Line, before: Sketch) -> int:
+    """Of the segments that a line comes from the one that is nearest to a place."""
+    import shapely
+
+    place = shapely.Point(at)
+    return min(line.origin, key=lambda number: (before.lines[number].shape.distance(place), number))
+
+
+def _remedy(origins: frozenset[int], segments: int, config: Config) -> str:
+    """To leave out what is in the way; the lists are whole, so that they can be pasted.
+
+    What the config keeps can't be dropped as well, and something has to be left.
+    """
+    if kept := origins.intersection(config.keep):
+        rest = [number for number in config.keep if number not in kept]
+        return f"let it be left out with keep: {rest}, or make the piece larger"
+    dropped = sorted(origins.union(config.drop))
+    if len(dropped) == segments:
+        return "make the piece larger, or use thinner wire"
+    return f"leave it out with drop: {dropped}, or make the piece larger"

@@ -61,7 +61,8 @@ def wall_polygons(
         core = _ground(channels, held, config, max(CORE_MM, config.min_wall_width))
         ground = rounded(ground.difference(free).union(core)).union(core)
     # Notches between neighbouring strips are filled, convex corners stay as they are.
-    ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
+    with np.errstate(divide="ignore", invalid="ignore"):  # GEOS finds mitres of edges that turn back by it
+        ground = ground.buffer(SMOOTHING_MM, join_style="mitre", mitre_limit=2.0).buffer(-SMOOTHING_MM)
     ground = ground.simplify(SIMPLER_MM)
     standing = ground.difference(passage(channels, held, config)).difference(obstacles)
     pieces = sorted(

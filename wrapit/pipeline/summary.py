@@ -47,7 +47,10 @@ def summary_lines(result: Build, take: str = "") -> Iterator[str]:
 def fit_line(fit: dict[str, Any]) -> str:
     """What was changed to make the drawing fit, from its block of the report."""
     before, after = fit["before"], fit["after"]
-    name = f"fit {fit['level']}" if fit["level"] != "off" else "left out as asked"
+    if fit["level"] != "off":
+        name = f"fit {fit['level']}"
+    else:
+        name = "left out as asked" if "dropped" in fit["changes"] else "with beads"
     tight = "no bend" if not after["tight_bends"] else _count(after["tight_bends"], "bend")
     parts = [
         f"{before['segments']} -> {_count(after['segments'], 'segment')}",
@@ -55,7 +58,8 @@ def fit_line(fit: dict[str, Any]) -> str:
         f"{tight} too tight",
         *([_count(len(fit["beads"]), "bead")] if fit["beads"] else []),
     ]
-    return f"{name}: {', '.join(parts)}; {fit['left_out_share']:.0%} of the lines left out"
+    gone = "left out or beads" if fit["beads"] else "left out"
+    return f"{name}: {', '.join(parts)}; {fit['left_out_share']:.0%} of the lines {gone}"
 
 
 def _where(result: Build) -> str:

@@ -45,7 +45,8 @@ def loose_beads(
             told.append(Removal("bead", dot.at, np.pi * dot.diameter_mm, drawn))
         elif problem:
             place = f"at ({dot.at[0]:.1f}, {dot.at[1]:.1f}) mm"
-            said.append(Finding("note", "no-bead", place, f"this dot becomes no bead: {problem}", _REMEDY))
+            message = f"this dot or ring becomes no bead: {problem}"
+            said.append(Finding("note", "no-bead", place, message, _REMEDY))
     return tuple(found), tuple(told), tuple(said)
 
 
