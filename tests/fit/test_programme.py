@@ -150,7 +150,7 @@ def test_images_are_chosen_alike() -> None:
         sketch = Sketch.of(drawn(kind, seed, 40.0, twin=True)).simplified()
         limits = limits_of(config("bold", 18), "bold")
 
-        pairs, faces = mirror_of(sketch), faces_of(sketch)
+        pairs, faces = mirror_of(sketch).pairs, faces_of(sketch)
         task = Task(
             sketch, faces, worths(sketch, faces, limits), limits, {}, frozenset(), pairs, LEVELS["bold"]
         )
