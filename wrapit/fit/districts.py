@@ -1,4 +1,4 @@
-"""Parts of a sketch that are looked at one after another, where all of it at once would take too long."""
+"""Parts of a sketch: what it falls into, and regions that are looked at one after another."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 import numpy as np
 
 from wrapit.fit.sketch import Sketch
+from wrapit.geometry.disjoint_sets import Sets
 
 
 def regions(
@@ -28,3 +29,19 @@ def regions(
         region = [*alike][:size]
         left.difference_update(*region[: max(1, size // 2)])
         yield frozenset().union(*region)
+
+
+def parted(sketch: Sketch, dropped: set[int]) -> Iterator[frozenset[int]]:
+    """Nodes of the parts that what is left falls into, but for the largest part."""
+    parts = Sets()
+    length_mm: dict[int, float] = {}
+    left = {n: line for n, line in sketch.lines.items() if n not in dropped}
+    for line in left.values():
+        parts.merge(line.start, line.end)
+    for line in left.values():
+        root = parts.find(line.start)
+        length_mm[root] = length_mm.get(root, 0.0) + line.curve.length
+    whole = max(length_mm, key=lambda root: (length_mm[root], -root), default=None)
+    for root in sorted(length_mm):
+        if root != whole:
+            yield frozenset(node for node in sketch.nodes if parts.find(node) == root)

@@ -13,10 +13,10 @@ from tests.bench.large_drawings import drawing_text
 from wrapit.config import Config
 from wrapit.drawing.stage import trace
 from wrapit.fit import programme
+from wrapit.fit.districts import parted, regions
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.programme import Choice, Task, Weights, choose
-from wrapit.fit.regions import regions
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.fit.worth import worths
 from wrapit.geometry import straight
@@ -72,4 +72,4 @@ def test_region_by_region_costs_little_more(
     at_once = choose(task)
     assert by_region.unmet <= at_once.unmet
     assert _cost(task, by_region) <= 1.15 * _cost(task, at_once)
-    assert not list(programme._parted(task.sketch, set(by_region.dropped)))
+    assert not list(parted(task.sketch, set(by_region.dropped)))
