@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.bench.large_drawings import drawing_text
@@ -23,6 +23,7 @@ from wrapit.geometry import straight
 
 
 @settings(max_examples=50)
+@example([(0.0, 0.0)] * 3, 2, False)
 @given(
     st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=1, max_size=90),
     st.integers(2, 40),

@@ -24,7 +24,9 @@ def regions(
     for first in np.argsort(middles[:, across], kind="stable").tolist():
         if numbers[first] not in left:
             continue
-        near = np.argsort(np.hypot(*(middles - middles[first]).T), kind="stable")
+        apart = np.hypot(*(middles - middles[first]).T)
+        apart[first] = -1.0  # itself before others at its place
+        near = np.argsort(apart, kind="stable")
         alike = dict.fromkeys(frozenset((n, pairs.get(n, n))) for n in numbers[near].tolist())
         region = [*alike][:size]
         left.difference_update(*region[: max(1, size // 2)])
