@@ -12,12 +12,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from wrapit.fit.districts import parted, regions
 from wrapit.fit.faces import Faces
 from wrapit.fit.merging import straight_on
 from wrapit.fit.model import Limits
-from wrapit.fit.regions import regions
 from wrapit.fit.sketch import Sketch
-from wrapit.geometry.disjoint_sets import Sets
 from wrapit.highs import Name, Programme
 
 # What it costs to leave a line too short, or a face too small, in mm of line: rather than half the picture.
@@ -126,7 +125,7 @@ def _in_one_piece(
         values = programme.solve(task.weights.nodes, _GAP, held).values
         if values is None:
             return None
-        apart = list(_parted(task.sketch, _dropped(task, values)))
+        apart = list(parted(task.sketch, _dropped(task, values)))
         if not apart:
             return values
         for part in apart:
@@ -275,27 +274,11 @@ def _add_likeness(programme: Programme, task: Task) -> None:
             programme.add_row({("one", n): 1.0, ("one", image): -1.0}, low=0.0, high=0.0)
 
 
-def _parted(sketch: Sketch, dropped: set[int]) -> Iterator[frozenset[int]]:
-    """Nodes of the parts that what is left falls into, but for the largest part."""
-    parts = Sets()
-    length_mm: dict[int, float] = {}
-    left = {n: line for n, line in sketch.lines.items() if n not in dropped}
-    for line in left.values():
-        parts.merge(line.start, line.end)
-    for line in left.values():
-        root = parts.find(line.start)
-        length_mm[root] = length_mm.get(root, 0.0) + line.curve.length
-    whole = max(length_mm, key=lambda root: (length_mm[root], -root), default=None)
-    for root in sorted(length_mm):
-        if root != whole:
-            yield frozenset(node for node in sketch.nodes if parts.find(node) == root)
-
-
 def _add_leads(programme: Programme, task: Task) -> None:
     """Where a single line leads to a part, the part goes with it: the lesser of its two sides."""
     around = frozenset().union(*(face.lines for face in task.faces.faces))
     for n in sorted(set(task.sketch.lines) - around):  # a line about a face leads to nothing
-        for part in _parted(task.sketch, {n}):
+        for part in parted(task.sketch, {n}):
             for other, line in sorted(task.sketch.lines.items()):
                 if line.start in part and line.end in part:
                     programme.add_row({("out", n): 1.0, ("out", other): -1.0}, high=0.0)

@@ -6,23 +6,24 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.bench.large_drawings import drawing_text
 from wrapit.config import Config
 from wrapit.drawing.stage import trace
 from wrapit.fit import programme
+from wrapit.fit.districts import parted, regions
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.programme import Choice, Task, Weights, choose
-from wrapit.fit.regions import regions
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.fit.worth import worths
 from wrapit.geometry import straight
 
 
 @settings(max_examples=50)
+@example([(0.0, 0.0)] * 3, 2, False)
 @given(
     st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=1, max_size=90),
     st.integers(2, 40),
@@ -72,4 +73,4 @@ def test_region_by_region_costs_little_more(
     at_once = choose(task)
     assert by_region.unmet <= at_once.unmet
     assert _cost(task, by_region) <= 1.15 * _cost(task, at_once)
-    assert not list(programme._parted(task.sketch, set(by_region.dropped)))
+    assert not list(parted(task.sketch, set(by_region.dropped)))
