@@ -16,7 +16,7 @@ from wrapit.fit.sketch import Sketch
 from wrapit.geometry import BezierChain, straight
 
 kinds = st.sampled_from([kind for kind in KINDS if kind != "blobs"])
-SOME = settings(max_examples=25, deadline=None, derandomize=True)
+SOME = settings(max_examples=15, deadline=None, derandomize=True)
 
 
 @SOME

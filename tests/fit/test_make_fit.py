@@ -117,7 +117,7 @@ def test_every_place_that_is_no_longer_there_is_told(kind, seed, size_mm, gauge,
         assert (np.hypot(*(at - place).T) <= reach).any(), place
 
 
-@MODEST
+@settings(MODEST, max_examples=5)
 @given(st.sampled_from(["net", "comb", "tips", "scribble", "tree", "hairpin"]), seeds, sizes, gauges, levels)
 def test_what_is_mirrored_or_turned_comes_out_mirrored_or_turned(kind, seed, size_mm, gauge, level):
     """However its parts are numbered, and which way its lines run.
@@ -134,7 +134,7 @@ def test_what_is_mirrored_or_turned_comes_out_mirrored_or_turned(kind, seed, siz
 def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself() -> None:
     """Three in four of a fixed list: where twins run along one another, one is led into the other."""
     alike, asked = 0, 0
-    for number, kind in enumerate(("net", "comb", "tips", "scribble", "tree") * 4):
+    for number, kind in enumerate(("net", "comb", "tips", "scribble", "tree") * 3):
         size_mm, gauge, level = ((25.0, 22, "gentle"), (50.0, 18, "bold"), (80.0, 20, "bold"))[number % 3]
         drawing = drawn(kind, 20 + number // 5, size_mm, twin=True)
         low, high = drawing.bounds_mm
@@ -144,7 +144,7 @@ def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself()
         result, _ = make_fit(centred, config(level, gauge))
         asked += 1
         alike += apart_mm(result.drawing, mapped(result.drawing, FLIP)) < 0.05
-    assert asked >= 15
+    assert asked >= 12
     assert alike >= 0.75 * asked
 
 
@@ -202,7 +202,7 @@ def test_all_cannot_be_dropped():
         make_fit(drawing, config("bold", 18, drop=[segment.id for segment in drawing.segments]))
 
 
-@settings(MODEST, max_examples=10)
+@settings(MODEST, max_examples=6)
 @given(kinds, seeds, sizes, gauges, levels)
 def test_the_same_drawing_comes_out_the_same_to_the_last_bit(kind, seed, size_mm, gauge, level):
     one, _ = fitted(kind, seed, size_mm, gauge, level)
