@@ -11,11 +11,10 @@ import numpy as np
 from tests.fit.drawn import config, drawn
 from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.limits import limits_of
-from wrapit.fit.merging import heading
 from wrapit.fit.mirrored import mirror_of
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import Task, Weights, choose
-from wrapit.fit.sketch import Sketch
+from wrapit.fit.sketch import Sketch, heading
 from wrapit.fit.worth import worths
 
 LEVELS = {"gentle": Weights(1.0, few=6, more_mm=0.0), "bold": Weights(6.0, few=2, more_mm=8.0)}

@@ -17,8 +17,6 @@ from wrapit.geometry.polyline import lengths
 
 # A line goes straight on into another where it turns by less than this (rad): as crossings are told apart.
 _STRAIGHT: Final = math.radians(40)
-# Directions at a node are those of the first so many mm: nearer, the drawing is unsteady.
-_LOOK_MM: Final = 1.0
 # A moved end draws its line along: all of a line so short (in shifts), so many shifts of a longer one.
 _WHOLE, _REACH = 10.0, 6.0
 # Moved lines are fitted within this (mm), a tenth of what a hand can bend to.
@@ -200,19 +198,10 @@ def straight_on(sketch: Sketch, arm: Arm) -> Arm | None:
 
 
 def _straightest(sketch: Sketch, arm: Arm, others: list[Arm]) -> Arm | None:
-    own = heading(sketch.leaving(arm))
-    turns = [(math.acos(float(np.clip(-own @ heading(sketch.leaving(o)), -1, 1))), o) for o in others]
+    own = sketch.heading(arm)
+    turns = [(math.acos(float(np.clip(-own @ sketch.heading(o), -1, 1))), o) for o in others]
     turns = [each for each in turns if each[0] < _STRAIGHT]
     return min(turns)[1] if turns else None
-
-
-def heading(curve: BezierChain) -> FloatArray:
-    """The direction in which a curve leaves its start, over its first mm."""
-    points = curve.sampled(STEP_MM)
-    along = lengths(points)
-    at = min(int(np.searchsorted(along, min(_LOOK_MM, along[-1] / 2))), len(points) - 1)
-    step = points[max(at, 1)] - points[0]
-    return np.asarray(step / max(float(np.hypot(*step)), 1e-12))
 
 
 def _runs_beside(sketch: Sketch, number: int, blur_mm: float) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 from wrapit.drawing.assembly import Piece, Placement, assemble
 from wrapit.drawing.model import Drawing, Removal
 from wrapit.geometry import BezierChain, FloatArray, joined
+from wrapit.geometry.polyline import lengths
 
 if TYPE_CHECKING:
     import shapely
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 # How finely lines become chains of points: far below a wire's thickness. Half of it changes no circle inside
 # a face of the corpus by more than 0.01 mm.
 STEP_MM = 0.1
+# Directions at a node are those of the first so many mm: nearer, the drawing is unsteady.
+_LOOK_MM = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +44,11 @@ class Line:
         import shapely
 
         return shapely.LineString(self.curve.sampled(STEP_MM))
+
+    @cached_property
+    def headings(self) -> tuple[FloatArray, FloatArray]:
+        """Directions (2,) in which the line leaves its start and its end, over its first mm there."""
+        return heading(self.curve), heading(self.curve.reversed())
 
     def reversed(self) -> Line:
         """The same line travelled the other way."""
@@ -98,6 +106,10 @@ class Sketch:
         line = self.lines[arm[0]]
         return line.curve.reversed() if arm[1] else line.curve
 
+    def heading(self, arm: Arm) -> FloatArray:
+        """The direction (2,) in which an arm leaves its node."""
+        return self.lines[arm[0]].headings[arm[1]]
+
     def changed(
         self,
         without: Iterable[int] = (),
@@ -118,16 +130,15 @@ class Sketch:
     def simplified(self, short_mm: float = 0.0) -> Sketch:
         """Two lines that meet at a node of their own are one; told where one of them is shorter than that."""
         sketch = self
-        while True:
-            pair = next(
-                (arms for arms in sketch.arms.values() if len(arms) == 2 and arms[0][0] != arms[1][0]), None
-            )
-            if pair is None:
-                return sketch
-            (one, at_end), (other, at_other_end) = pair
+        for node in sorted(self.nodes):
+            arms = sketch.arms.get(node, [])
+            if len(arms) != 2 or arms[0][0] == arms[1][0]:
+                continue
+            (one, at_end), (other, at_other_end) = arms
             first = sketch.lines[one] if at_end else sketch.lines[one].reversed()
             then = sketch.lines[other].reversed() if at_other_end else sketch.lines[other]
-            both = Line(first.start, then.end, joined((first.curve, then.curve)), first.origin | then.origin)
+            curve = joined((first.curve, then.curve))
+            both = Line(first.start, then.end, curve, first.origin | then.origin)
             least = min((first, then), key=lambda line: line.curve.length)
             told = (
                 [least.told("merged", "it goes on in one other line")]
@@ -135,6 +146,7 @@ class Sketch:
                 else []
             )
             sketch = sketch.changed((one, other), {min(one, other): both}, told=told)
+        return sketch
 
     def drawing(self, original: Drawing) -> tuple[Drawing, tuple[tuple[int, ...], ...]]:
         """The drawing, numbered as drawings are, in the original's frame; and each segment's origins."""
@@ -163,3 +175,12 @@ def _key(curve: BezierChain) -> tuple[bytes, ...]:
     there = (curve.points + 0.0).tobytes()
     back = (np.ascontiguousarray(curve.points[::-1, ::-1]) + 0.0).tobytes()
     return tuple(sorted((there, back)))
+
+
+def heading(curve: BezierChain) -> FloatArray:
+    """The direction in which a curve leaves its start, over its first mm."""
+    points = curve.sampled(STEP_MM)
+    along = lengths(points)
+    at = min(int(np.searchsorted(along, min(_LOOK_MM, along[-1] / 2))), len(points) - 1)
+    step = points[max(at, 1)] - points[0]
+    return np.asarray(step / max(float(np.hypot(*step)), 1e-12))

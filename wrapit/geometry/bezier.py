@@ -66,7 +66,7 @@ class BezierChain:
         speed = norms(derivative(quarters, QUARTER_NODES))
         return (speed @ QUARTER_WEIGHTS).reshape(4, -1).sum(axis=0)
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Arc length of the chain."""
         return float(self.lengths.sum())

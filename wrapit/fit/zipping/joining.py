@@ -94,21 +94,18 @@ def _onto(axis: Axis, sketch: Sketch, nodes: set[int], limits: Limits) -> Sketch
 def folded(sketch: Sketch, limits: Limits) -> Sketch:
     """Lines that come near themselves get a node half way of each bight: two that run along one another."""
     way_mm = 2 * PARTING * limits.room_mm
-    half: dict[int, list[float]] = {}
-    for one, at, other, other_at, _ in near_places(sketch, limits.room_mm):
-        around = sketch.lines[one].curve.length - abs(at - other_at)
-        if (
-            one == other
-            and abs(at - other_at) > way_mm
-            and not (sketch.lines[one].is_ring and around < way_mm)
-        ):
-            half.setdefault(one, []).append((at + other_at) / 2)
-    for number, places in sorted(half.items()):
+    near = near_places(sketch, limits.room_mm)
+    near = near.where((near.one == near.other) & (np.abs(near.at - near.other_at) > way_mm))
+    for number in np.unique(near.one).tolist():
+        own = near.where(near.one == number)
+        if sketch.lines[number].is_ring:
+            own = own.where(sketch.lines[number].curve.length - np.abs(own.at - own.other_at) >= way_mm)
+        places = (own.at + own.other_at) / 2
         line, free = sketch.lines[number], max(sketch.nodes) + 1
         names = {0.0: line.start, line.curve.length: line.end}
         nodes: dict[int, FloatArray] = {}
-        for low, high in runs(np.array(places), limits.room_mm):
-            at_mm = float(np.median([place for place in places if low <= place <= high]))
+        for low, high in runs(places, limits.room_mm) if len(places) else ():
+            at_mm = float(np.median(places[(low <= places) & (places <= high)]))
             names[at_mm] = free + len(nodes)
             nodes[names[at_mm]] = piece(line.curve, 0.0, at_mm).end
         sketch = sketch.changed((number,), _cut(sketch, number, names, {**sketch.nodes, **nodes}), nodes)

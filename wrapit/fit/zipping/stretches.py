@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Sketch
-from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry import BezierChain, FloatArray, IntArray, unit
+from wrapit.geometry.arrays import norms
 from wrapit.geometry.polyline import lengths
 
 # How finely lines are compared (mm).
@@ -48,13 +51,9 @@ def stretches(
 ) -> list[Stretch]:
     """Where lines run along others, the longest stretch first; the line is the lesser of the two."""
     room_mm = limits.room_mm
-    near: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
-    for one, at, other, other_at, gap in near_places(sketch, room_mm):
-        if one != other and not _part_there(sketch, one, at, other, other_at, PARTING * room_mm):
-            near.setdefault((one, other), []).append((at, other_at, gap))
+    near = _parted(sketch, near_places(sketch, room_mm), PARTING * room_mm)
     found: list[tuple[tuple[float, ...], Stretch]] = []
-    for (one, other), places in sorted(near.items()):
-        table = np.array(places)
+    for one, other, table in near.by_pair():
         if min(np.ptp(table[:, 0]), np.ptp(table[:, 1])) < _ALONG * room_mm:
             continue
         lines = [sketch.lines[one], sketch.lines[other]]
@@ -81,26 +80,47 @@ def _beside(table: FloatArray, lesser: int, at_mm: float) -> float:
     return float(there[there[:, 2] < there[:, 2].min() + _ALIKE_MM, 1 - lesser].mean())
 
 
-def near_places(sketch: Sketch, room_mm: float) -> Iterator[tuple[int, float, int, float, float]]:
-    """Places where lines run too near to one another: line and mm along it, twice, and how far apart."""
+@dataclass(frozen=True, eq=False)
+class Near:
+    """Places where lines run too near to one another, (k,) each: two lines, mm along either, mm between."""
+
+    one: IntArray
+    other: IntArray
+    at: FloatArray
+    other_at: FloatArray
+    gap: FloatArray
+
+    def where(self, chosen: NDArray[np.bool_]) -> Near:
+        """Some of the places."""
+        along = self.at[chosen], self.other_at[chosen], self.gap[chosen]
+        return Near(self.one[chosen], self.other[chosen], *along)
+
+    def by_pair(self) -> Iterator[tuple[int, int, FloatArray]]:
+        """Each two lines that are near, and mm along the one, along the other and between, (k, 3)."""
+        table = np.column_stack([self.at, self.other_at, self.gap])
+        pairs, which = np.unique(np.column_stack([self.one, self.other]), axis=0, return_inverse=True)
+        for index, (one, other) in enumerate(pairs.tolist()):
+            yield one, other, table[which.ravel() == index]
+
+
+def near_places(sketch: Sketch, room_mm: float) -> Near:
+    """Places where lines run too near to one another, or to themselves."""
     from scipy.spatial import cKDTree
 
     numbers = sorted(sketch.lines)
-    points = [sketch.lines[n].curve.sampled(_STEP_MM) for n in numbers]
+    curves = [sketch.lines[n].curve for n in numbers]
+    points = [curve.sampled(_STEP_MM) for curve in curves]
     every = np.concatenate(points)
     owner = np.repeat(numbers, [len(each) for each in points])
-    at = np.concatenate(
-        [_along(sketch.lines[n].curve, each) for n, each in zip(numbers, points, strict=True)]
-    )
+    at = np.concatenate([_along(curve, each) for curve, each in zip(curves, points, strict=True)])
     pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
     far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > PARTING * room_mm
     pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
     along = np.concatenate([unit(np.gradient(each, axis=0)) for each in points])
     first, second = along[pairs[:, 0]], along[pairs[:, 1]]
     pairs = pairs[np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) < _PARALLEL]
-    apart = np.hypot(*(every[pairs[:, 0]] - every[pairs[:, 1]]).T)
-    for (i, j), gap in zip(pairs.tolist(), apart.tolist(), strict=True):
-        yield int(owner[i]), float(at[i]), int(owner[j]), float(at[j]), gap
+    one, other = pairs[:, 0], pairs[:, 1]
+    return Near(owner[one], owner[other], at[one], at[other], norms(every[one] - every[other]))
 
 
 def _along(curve: BezierChain, points: FloatArray) -> FloatArray:
@@ -109,18 +129,19 @@ def _along(curve: BezierChain, points: FloatArray) -> FloatArray:
     return chords * (curve.length / max(float(chords[-1]), 1e-12))
 
 
-def _part_there(
-    sketch: Sketch, one: int, at_mm: float, other: int, other_mm: float, parting_mm: float
-) -> bool:
-    """Whether two places lie on lines that have just parted at a node."""
-    first, second = sketch.lines[one], sketch.lines[other]
-    ways = ((first.start, at_mm), (first.end, first.curve.length - at_mm))
-    others = ((second.start, other_mm), (second.end, second.curve.length - other_mm))
-    return any(
-        node == their and max(way_mm, their_mm) < parting_mm
-        for node, way_mm in ways
-        for their, their_mm in others
-    )
+def _parted(sketch: Sketch, near: Near, parting_mm: float) -> Near:
+    """Places of two lines that haven't just parted at a node."""
+    size = max(sketch.lines) + 1
+    nodes, length = np.full((size, 2), -1), np.zeros(size)
+    for n, line in sketch.lines.items():
+        nodes[n], length[n] = (line.start, line.end), line.curve.length
+    ways = np.stack([near.at, length[near.one] - near.at])
+    others = np.stack([near.other_at, length[near.other] - near.other_at])
+    together = np.zeros(len(near.at), dtype=bool)
+    for k, m in itertools.product((0, 1), repeat=2):
+        shared = nodes[near.one, k] == nodes[near.other, m]
+        together |= shared & (np.maximum(ways[k], others[m]) < parting_mm)
+    return near.where(~together & (near.one != near.other))
 
 
 def runs(places_mm: FloatArray, gap_mm: float) -> list[tuple[float, float]]:
