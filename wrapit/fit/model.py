@@ -85,6 +85,7 @@ class Fitted:
 
     @property
     def left_out(self) -> tuple[int, ...]:
-        """Segments of the original that are in no segment of the drawing."""
+        """Strokes of the original that are in no segment of the drawing; bridges are offered anew."""
         kept = {number for origin in self.origins for number in origin}
-        return tuple(segment.id for segment in self.original.segments if segment.id not in kept)
+        strokes = (segment for segment in self.original.segments if segment.kind == "stroke")
+        return tuple(segment.id for segment in strokes if segment.id not in kept)

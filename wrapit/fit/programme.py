@@ -54,7 +54,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Choice:
-    """Lines left out, short lines whose nodes become one, small faces that close up; what is left undone."""
+    """Lines left out, short lines whose nodes become one, and how many limits that leaves unmet."""
 
     dropped: frozenset[int]
     merged: frozenset[int]
@@ -182,7 +182,7 @@ def _growth(programme: Programme, task: Task, n: int, node: int) -> Iterator[tup
 
 
 def _add_faces(programme: Programme, task: Task) -> None:
-    """Of the lines about a face without room, one goes at least, or all but one become a node."""
+    """Of the lines about a face without room one goes at least."""
     for index, face in enumerate(task.faces.faces):
         if face.inside_mm >= needed_mm(task.sketch, face.lines, task.limits):
             continue

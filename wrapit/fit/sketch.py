@@ -78,10 +78,12 @@ class Sketch:
 
     @classmethod
     def of(cls, drawing: Drawing) -> Sketch:
-        """A drawing as a sketch: junctions and segments keep their numbers."""
+        """A drawing's strokes as a sketch: junctions and segments keep their numbers."""
+        strokes = [segment for segment in drawing.segments if segment.kind == "stroke"]
+        used = {node for stroke in strokes for node in (stroke.start, stroke.end)}
         return cls(
-            {junction.id: junction.point for junction in drawing.junctions},
-            {s.id: Line(s.start, s.end, s.curve, frozenset((s.id,))) for s in drawing.segments},
+            {junction.id: junction.point for junction in drawing.junctions if junction.id in used},
+            {s.id: Line(s.start, s.end, s.curve, frozenset((s.id,))) for s in strokes},
         )
 
     @cached_property
