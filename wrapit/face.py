@@ -50,7 +50,7 @@ def trace(
     from wrapit.drawing.stage import trace as run
 
     config = config if config is not None else _usual()
-    return run(Path(path), config.tracing, _checked(size_mm) if size_mm is not None else config.size)
+    return run(Path(path), config.reading, _checked(size_mm) if size_mm is not None else config.size)
 
 
 def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, ...]]:

@@ -11,7 +11,7 @@ from shapely import LineString, union_all
 
 from tests.drawing.bitmap.figures import line
 from tests.drawing.generated import degrees
-from wrapit.config import TracingConfig
+from wrapit.config import Config, TracingConfig
 from wrapit.drawing.assembly import Piece
 from wrapit.drawing.components import connect
 from wrapit.geometry import FloatArray, straight
@@ -90,3 +90,31 @@ def test_what_is_nearer_than_the_longest_link_is_joined_and_nothing_else(seed, l
         )
         # Strokes are looked at in 33 places each.
         assert drawn.distance(stroke) > longest - max(piece.curve.length for piece in joined.pieces) / 32
+
+
+def ring(middle: tuple[float, float], side: float, first: int) -> tuple[dict[int, FloatArray], list[Piece]]:
+    """A square of four strokes about a place, numbered from `first`."""
+    corners = np.array(middle) + side / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    places = {first + k: corner for k, corner in enumerate(corners)}
+    ends = [(first + k, first + (k + 1) % 4) for k in range(4)]
+    return places, [Piece(a, b, straight(places[a], places[b])) for a, b in ends]
+
+
+@given(st.floats(-60, 60), st.floats(-60, 60), st.floats(1, 60))
+def test_what_is_weighed_lies_within_the_largest_and_is_worth_its_link(x: float, y: float, side: float):
+    (places, pieces), (more, others) = ring((0, 0), 100, 0), ring((x, y), side, 4)
+    result = connect({**places, **more}, [*pieces, *others], "weigh", 100.0)
+    reach = max(abs(x), abs(y)) + side / 2
+    joined = len(result.pieces) > 4
+    if abs(reach - 50) > 1e-6 and abs(4 * side - 2 * (50 - reach)) > 2:
+        assert joined == (reach < 50 and 4 * side >= 2 * (50 - reach))
+    assert [change.what for change in result.changes] == ["link" if joined else "piece"]
+
+
+def test_pieces_are_weighed_where_a_drawing_is_made_fit() -> None:
+    def how(**settings: object) -> str:
+        return Config.model_validate({"drawing": "owl.png", **settings}).reading.components
+
+    assert how() == how(fit="off") == how(fit="bold", beads="auto") == "largest"
+    assert how(fit="gentle") == how(fit="bold") == "weigh"
+    assert how(fit="bold", tracing={"components": "join"}) == "join"

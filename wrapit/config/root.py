@@ -113,6 +113,14 @@ class Config(Block):
     )
     """Formats to write beside drawing, wires and report; `html` is the guide, `pdf` a print of it."""
 
+    @property
+    def reading(self) -> TracingConfig:
+        """How the drawing is read: with `fit`, pieces within it are joined, unless they may be beads."""
+        if self.tracing.components != "auto":
+            return self.tracing
+        weighed = self.fit != "off" and self.beads == "never"
+        return self.tracing.model_copy(update={"components": "weigh" if weighed else "largest"})
+
     @field_validator("name")
     @classmethod
     def _names_a_folder(cls, name: str) -> str:

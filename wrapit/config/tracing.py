@@ -8,6 +8,9 @@ from typing import Annotated, Literal
 from wrapit.config.block import Block
 from wrapit.config.quantities import angle, length, number, whole
 
+Components = Literal["auto", "largest", "join", "weigh"]
+"""What becomes of a drawing in several pieces."""
+
 
 class TracingConfig(Block):
     """How lines are found in a bitmap; JSON and SVG drawings are taken as they are drawn."""
@@ -21,8 +24,10 @@ class TracingConfig(Block):
     tolerance: Annotated[float, number(0.001, 0.5)] = 0.04
     """Largest distance of the fitted curves from the centre of the ink, in stroke widths."""
 
-    components: Literal["largest", "join"] = "largest"
-    """A drawing in several pieces: keep the largest, or join near ones by the shortest extra segment."""
+    components: Components = "auto"
+    """A drawing in several pieces: keep the `largest`; `join` near ones by the shortest extra segment;
+    `weigh` them, which joins those within the largest that are twice as long as their link. `auto` weighs
+    with `fit`, and else keeps the largest."""
 
     filled: Literal["refuse", "outline"] = "refuse"
     """Filled shapes: refuse them (they are no lines), or trace their outlines as lines."""

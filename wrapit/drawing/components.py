@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
-from wrapit.drawing.assembly import Piece
+from wrapit.config.tracing import Components
+from wrapit.drawing.assembly import Piece, bounds
 from wrapit.drawing.changes import Change, Notice
 from wrapit.drawing.spots import Spot, spots_of_outlines
 from wrapit.geometry import BezierChain, FloatArray, IntArray, straight
@@ -18,6 +18,8 @@ from wrapit.geometry.disjoint_sets import Sets
 # How far apart may pieces be that are joined on request? In sizes of the drawing: a link across more of it
 # would be a part of the drawing that nobody drew.
 LONGEST_LINK = 0.25
+# A piece that is worth joining is so many times as long as its link, at least.
+_WORTH_A_LINK = 2.0
 # How many pieces that are left out are named each by its place; a page of text has hundreds.
 _NAMED = 8
 # Where a cubic is looked at for its nearest place to another: a link may start a 64th of it beside that.
@@ -53,10 +55,10 @@ class _Samples:
     at: FloatArray
 
 
-def connect(
-    places: dict[int, FloatArray], pieces: list[Piece], how: Literal["largest", "join"], longest: float
-) -> Connected:
+def connect(places: dict[int, FloatArray], pieces: list[Piece], how: Components, longest: float) -> Connected:
     """One connected drawing: others are joined where `how` says so and the link is at most `longest`.
+
+    Weighed, only those are that lie within the box of the largest, which so keeps its size, and are worth it.
 
     What stays apart is left out, with a warning that names the place. The nearest group is always the next
     to be joined (Prim's method for the shortest tree), so the work grows with the square of the groups.
@@ -65,16 +67,23 @@ def connect(
     if len(groups) == 1:
         return Connected(places, pieces)
     result = Connected(dict(places), groups[0])
-    rest = groups[1:]
+    box = bounds([piece.curve for piece in groups[0]])
+    near = [group for group in groups[1:] if how == "join" or (how == "weigh" and _is_within(group, box))]
+    rest = [group for group in groups[1:] if group not in near]
     known: dict[Piece, _Samples] = {}
-    apart = [_samples(group, known) for group in rest] if how == "join" else []
+    apart = [_samples(group, known) for group in near]
     while apart:
         gaps = _gaps(result.pieces, apart, known)
-        best = min(range(len(rest)), key=lambda k: (gaps[k].length, k))
+        best = min(range(len(near)), key=lambda k: (gaps[k].length, k))
         if gaps[best].length > longest:
             break
         del apart[best]
-        _link(result, rest.pop(best), gaps[best])
+        group = near.pop(best)
+        if how == "weigh" and _length(group) < _WORTH_A_LINK * gaps[best].length:
+            rest.append(group)
+        else:
+            _link(result, group, gaps[best])
+    rest = sorted((*rest, *near), key=lambda group: -_length(group))
     for k, group in enumerate(rest):
         _leave_out(result, group, named=k < _NAMED)
     if len(rest) > _NAMED:
@@ -84,10 +93,19 @@ def connect(
     return result
 
 
+def _is_within(group: list[Piece], box: tuple[FloatArray, FloatArray]) -> bool:
+    low, high = bounds([piece.curve for piece in group])
+    return bool((low >= box[0]).all() and (high <= box[1]).all())
+
+
+def _length(group: list[Piece]) -> float:
+    return sum(piece.curve.length for piece in group)
+
+
 def _leave_out(result: Connected, group: list[Piece], named: bool) -> None:
     points = np.concatenate([piece.curve.points.reshape(-1, 2) for piece in group])
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    length = sum(piece.curve.length for piece in group)
+    length = _length(group)
     at = (float(middle[0]), float(middle[1]))
     result.changes.append(Change("piece", at, length, "not connected to the largest piece"))
     result.spots += spots_of_outlines([piece.curve.points for piece in group] if len(group) == 1 else [])
@@ -113,7 +131,7 @@ def _groups(pieces: list[Piece]) -> list[list[Piece]]:
         groups.setdefault(together.find(piece.start), []).append(piece)
     if len(groups) == 1:
         return [pieces]
-    return sorted(groups.values(), key=lambda group: -sum(piece.curve.length for piece in group))
+    return sorted(groups.values(), key=lambda group: -_length(group))
 
 
 def _gaps(one: list[Piece], others: list[_Samples], known: dict[Piece, _Samples]) -> list[Gap]:

@@ -48,7 +48,7 @@ _OF_FIT = (
     "jig.springback",
 )
 STEPS: Final[dict[str, Step]] = {
-    "trace": Step(reads=("size", "tracing")),
+    "trace": Step(reads=("size", "tracing", "fit", "beads")),  # with `fit` pieces are joined
     "fit": Step(("trace",), _OF_FIT),
     "drawing": Step(("fit",), ("decomposition.bridges",)),
     "decomposition": Step(("fit",), ("decomposition",)),

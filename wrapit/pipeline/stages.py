@@ -79,7 +79,7 @@ def _trace(work: Work, folder: Path | None) -> None:
     def traced() -> Outcome:
         from wrapit.drawing.stage import trace
 
-        drawing, findings = trace(work.drawing_path, work.config.tracing, work.config.size)
+        drawing, findings = trace(work.drawing_path, work.config.reading, work.config.size)
         if sha256(work.drawing_path) != work.drawing_sha256:
             work.store = Store()  # somebody saved it meanwhile: this is the drawing of no key
         return Outcome(drawing, findings=findings)

@@ -45,7 +45,7 @@ CHANGES: list[tuple[str, set[str]]] = [
     ("size=41 mm", ALL),
     ("name=other", {PRINTED} | EXPORTS),
     ("keep=[0]", set()),
-    ("fit=gentle", (ALL - {"trace"}) | {"fit"}),
+    ("fit=gentle", ALL | {"fit"}),  # pieces of the drawing are joined with it
 ]
 KERNEL_FREE = {"guide", "views", SHEET} | DRAWN
 OUTPUTS = ["step", "stl", "dxf", "html"]

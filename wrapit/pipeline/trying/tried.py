@@ -43,7 +43,7 @@ def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
     """
     from wrapit.drawing.stage import trace
 
-    drawing, _ = trace(path, config.tracing, config.size)
+    drawing, _ = trace(path, config.reading, config.size)
     if not takes_fit(config):
         return drawing, None
     from wrapit.fit.stage import make_fit
