@@ -1,8 +1,9 @@
 """Drawings made fit for wire: how fit they are, what that cost by a judge of its own, what wires they give.
 
 Run as `python -m tests.bench fit [names] [--solids | --quick]`: the corpus's clean drawings, and public
-clipart (OpenMoji, CC BY-SA 4.0), a folder named in $WRAPIT_CLIPART; names are of drawings, or `corpus` or
-`clipart`. $WRAPIT_BENCH_SIZES (30,40,50,60), $WRAPIT_BENCH_GAUGES (18,22) and $WRAPIT_BENCH_FIT
+clipart (OpenMoji, CC BY-SA 4.0), a folder named in $WRAPIT_CLIPART; names are of drawings, or `clipart`. With
+$WRAPIT_CLIPART unset it is the corpus alone.
+$WRAPIT_BENCH_SIZES (30,40,50,60), $WRAPIT_BENCH_GAUGES (18,22) and $WRAPIT_BENCH_FIT
 (off,gentle,bold) choose fewer. `--solids` makes the wires' solids too, by the kernel: minutes more; `--quick`
 plans no jig, so that weak turns and what lies off stay unknown. In the table `untight` is no tight-bend
 finding and no such stretch within a segment; `fits` asks for rounded corners, and room in each face, too.
