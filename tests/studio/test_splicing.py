@@ -151,7 +151,7 @@ def test_constraints_come_and_go_by_their_number(text: str, data: st.DataObject)
     assert (value_at(said(result), "decomposition.constraints") or []) == kept + added
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=80)
 @given(text=configs(), key=st.sampled_from(["keep", "drop"]), numbers=st.sets(st.integers(0, 15), min_size=1))
 def test_numbers_are_added_once_and_taken_wherever_they_stand(text: str, key: str, numbers: set[int]) -> None:
     old = value_at(said(text), key) or []
