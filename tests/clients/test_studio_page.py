@@ -281,7 +281,7 @@ def test_a_crab_is_made_fit_by_a_button_and_keeps_its_leg(page: Page, studio: St
     gentle = page.get_by_role("button", name="Make it fit: gentle").first
     expect(gentle).to_be_visible(timeout=PATIENCE_MS)
     all_made(page)
-    before = drawn(page)
+    before, read_first = drawn(page), studio.state()["shown"]["drawing"]
     expect(page.locator("#sides")).to_be_hidden()
     gentle.click()
     expect(page.get_by_label("Fit for wire", exact=True)).to_have_value("gentle", timeout=PATIENCE_MS)
@@ -313,7 +313,7 @@ def test_a_crab_is_made_fit_by_a_button_and_keeps_its_leg(page: Page, studio: St
         all_made(page)
         assert studio.config.read_text("utf-8") == text
     expect(page.locator("#sides")).to_be_hidden(timeout=PATIENCE_MS)
-    assert drawn(page) == before
+    assert studio.state()["shown"]["drawing"] == read_first
 
 
 def test_a_junction_and_an_end_are_asked_about(page: Page, studio: Studio) -> None:
