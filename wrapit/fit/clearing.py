@@ -23,12 +23,12 @@ from wrapit.geometry.arclength import piece
 from wrapit.geometry.disjoint_sets import Sets
 
 # What a wire less is worth, in mm of line inside the drawing that may go for it; more where there are many.
-# Twice the second takes from the lobster its last stripe, none of it leaves castles and deer two thirds.
+# With 8 mm beyond five a lobster lost its last stripe; with none it kept 7 of 19 wires, with these 4.
 _WORK: Final[dict[Level, Weights]] = {
     "gentle": Weights(1.0, few=6, more_mm=0.0),
     "bold": Weights(6.0, few=6, more_mm=5.0),
 }
-# Each round's lines are judged as they are by then; drawings of the corpus take 1 to 3 rounds.
+# Each round's lines are judged as they are by then; the corpus takes two choices at most.
 _ROUNDS: Final = 12
 
 
