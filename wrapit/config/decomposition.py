@@ -38,6 +38,9 @@ class WeightsConfig(Block):
     symmetry: Annotated[float, number(0, 1_000)] = 0.0
     """Cost of each pair of mirrored junctions that wires pass in unlike ways."""
 
+    doubling: Annotated[float, number(0, 1_000)] = 1.0
+    """Cost of running along a line of mean length a second time; read with `doubling` and `max_wires`."""
+
 
 class AnnealingConfig(Block):
     """Schedule of the paper's Algorithm 1, read by the solver `annealing`."""
@@ -157,6 +160,13 @@ class DecompositionConfig(Block):
         default="never", json_schema_extra={"enum": ["never", "auto", False, True]}
     )
     """`auto`: a wire that hangs on one junction is taken in by its neighbour and doubled back."""
+
+    max_wires: Annotated[int, whole(1, 1_000)] | None = Field(default=None, examples=[1])
+    """No piece of the drawing takes more wires: 1 makes one line of it. Where its lines can't be run in so few,
+    some of them are run along twice, side by side."""
+
+    doubling: bool = False
+    """Whether a line may be run along twice wherever that is worth it to save a wire."""
 
     choice: Annotated[int, whole(1, 1_000)] = 1
     """Which of the best ways to divide it: 1 is the best, 2 the next; `--alternatives` draws them."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from dataclasses import asdict
 from typing import Any
 
@@ -51,15 +52,19 @@ def decomposition_json(solution: Solution) -> str:
 def decomposition_summary(solution: Solution) -> dict[str, Any]:
     """Everything in `decomposition.json` but the wires, as `report.json` repeats it.
 
-    Symmetry appears among the weights and energies only where it was asked for.
+    Symmetry and doubling appear among the weights and energies only where they have a part in it.
     """
-    symmetric = solution.weights.symmetry > 0
+    unasked = set()
+    if solution.weights.symmetry == 0:
+        unasked |= {"symmetry", "asymmetry"}
+    if solution.energy.doubling == 0:
+        unasked.add("doubling")
     return {
         "format": "wrapit-decomposition/1",
         "solver": solution.solver,
         "seed": solution.seed,
-        "energy": _without(asdict(solution.energy), "asymmetry", keep=symmetric),
-        "weights": _without(asdict(solution.weights), "symmetry", keep=symmetric),
+        "energy": _without(asdict(solution.energy), unasked),
+        "weights": _without(asdict(solution.weights), unasked),
         "lower_bound": solution.lower_bound,
         "optimal": solution.optimal,
         "bridges_used": list(solution.bridges_used),
@@ -68,5 +73,5 @@ def decomposition_summary(solution: Solution) -> dict[str, Any]:
     }
 
 
-def _without(terms: dict[str, Any], key: str, *, keep: bool) -> dict[str, Any]:
-    return {name: value for name, value in terms.items() if keep or name != key}
+def _without(terms: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
+    return {name: value for name, value in terms.items() if name not in names}

@@ -86,20 +86,22 @@ class Decomposition:
 class Weights:
     """The weights of the energy.
 
-    `E = N + λs·bends + λr·weak wires + λb·bridges` (paper, equations 1 to 4) `+ λm·asymmetry`.
+    `E = N + λs·bends + λr·weak wires + λb·bridges` (paper, equations 1 to 4) `+ λm·asymmetry + λd·doubling`.
     """
 
     smoothness: float = 0.1
     robustness: float = 0.9
     bridges: float = 0.1
     symmetry: float = 0.0
+    doubling: float = 1.0
 
 
 @dataclass(frozen=True)
 class Energy:
     """The terms of the energy, unweighted, and the weighted total.
 
-    `asymmetry` counts mirrored junctions that are treated unlike one another, where asked for.
+    `asymmetry` counts mirrored junctions that are treated unlike one another, where asked for; `doubling`
+    is the length that is run along a second time, in mean segments.
     """
 
     complexity: int
@@ -108,6 +110,7 @@ class Energy:
     bridges: int
     total: float
     asymmetry: int = 0
+    doubling: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,6 +55,23 @@ class Bail:
 
 
 @dataclass(frozen=True)
+class DoubleRun:
+    """A stretch of a wire along which another run of the same lines lies close beside it.
+
+    `start_mm` and `end_mm` are places along this wire; the other run, of the wire `other` (this one or another),
+    lies on its `side`, seen in its own direction of travel, `opposed` where that runs the other way.
+    `first` says that this run is laid before the other.
+    """
+
+    start_mm: float
+    end_mm: float
+    other: str
+    side: Side
+    opposed: bool
+    first: bool
+
+
+@dataclass(frozen=True)
 class WireBead:
     """A bead at a place along a wire, to its left by `aside_mm` (to its right if negative).
 
@@ -133,6 +150,9 @@ class Wire:
     bail: Bail | None = None
     beads: tuple[WireBead, ...] = ()
     """In their order along it."""
+
+    doubles: tuple[DoubleRun, ...] = ()
+    """Where it lies beside another run of the same lines, in their order along it."""
 
     def heights_mm(self, at_mm: FloatArray) -> FloatArray:
         """Heights (m,) of the centreline over the lowest layer at places (m,) along the wire."""
