@@ -162,8 +162,8 @@ class DecompositionConfig(Block):
     """`auto`: a wire that hangs on one junction is taken in by its neighbour and doubled back."""
 
     max_wires: Annotated[int, whole(1, 1_000)] | None = Field(default=None, examples=[1])
-    """No piece of the drawing takes more wires: 1 makes one line of it. Where its lines can't be run in so few,
-    some of them are run along twice, side by side."""
+    """No piece of the drawing takes more wires: 1 makes one line of it. Where that needs it,
+    lines are run along twice, side by side."""
 
     doubling: bool = False
     """Whether a line may be run along twice wherever that is worth it to save a wire."""

@@ -58,9 +58,9 @@ class Bail:
 class DoubleRun:
     """A stretch of a wire along which another run of the same lines lies close beside it.
 
-    `start_mm` and `end_mm` are places along this wire; the other run, of the wire `other` (this one or another),
-    lies on its `side`, seen in its own direction of travel, `opposed` where that runs the other way.
-    `first` says that this run is laid before the other.
+    `start_mm` and `end_mm` are places along this wire; the other run, of the wire `other` (this one or
+    another), lies on its `side`, seen in its own direction of travel, `opposed` where that runs the other
+    way. `first` says that this run is laid before the other.
     """
 
     start_mm: float
