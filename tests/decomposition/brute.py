@@ -31,7 +31,7 @@ def wires_of(graph: Graph, mate: Sequence[int]) -> list[set[int]] | None:
     """Segment sets of the wires, None where there is a ring; a bridge that joins nothing is no wire."""
     count = len(graph.junction_of) // 2
     wires = []
-    left = {e for e in range(count) if e not in graph.bridges or mate[2 * e] >= 0 or mate[2 * e + 1] >= 0}
+    left = {e for e in range(count) if e not in graph.optional or mate[2 * e] >= 0 or mate[2 * e + 1] >= 0}
     while left:
         group, frontier = set(), [min(left)]
         while frontier:

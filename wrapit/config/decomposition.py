@@ -13,7 +13,7 @@ from wrapit.config.quantities import Numbered, length, number, whole
 SolverName = Literal["exact", "annealing"]
 """The ways to divide a drawing; `wrapit.decomposition.solvers` holds what each of them does."""
 
-Operator = Literal["join", "split", "permute", "bridge"]
+Operator = Literal["join", "split", "permute", "bridge", "double"]
 
 MOST_ITERATIONS: Final = 100_000_000
 """Of the search by annealing: hours of work."""
@@ -55,7 +55,7 @@ class AnnealingConfig(Block):
     """The search ends below this temperature."""
 
     operators: tuple[Operator, ...] = Field(
-        default=("join", "split", "permute", "bridge"), min_length=1, max_length=20
+        default=("join", "split", "permute", "bridge", "double"), min_length=1, max_length=20
     )
     """The changes that are tried, each as often as the others."""
 

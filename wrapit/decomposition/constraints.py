@@ -15,8 +15,11 @@ from wrapit.errors import ConfigError
 _HELP = "drawing.svg shows the numbers of segments and junctions (with `fit`, the coloured ones)"
 
 
-def rules_of(graph: Graph, constraints: Sequence[ConstraintConfig], bridges: bool) -> Rules:
-    """The rules that the constraints make together.
+def rules_of(
+    graph: Graph, constraints: Sequence[ConstraintConfig], bridges: bool, most_wires: int | None = None
+) -> Rules:
+    """The rules that the constraints make together, second runs included: a wish about a segment is one
+    about both its runs, and met by either.
 
     Raises ConfigError, naming the constraint, for numbers that the drawing doesn't have and for
     what can't be whatever the wires. `bridges` says whether bridges may join the pieces.
@@ -36,7 +39,12 @@ def rules_of(graph: Graph, constraints: Sequence[ConstraintConfig], bridges: boo
             same += [(first, other) for other in rest]
         elif constraint.different_wire is not None:
             _check_segments(graph, constraint.different_wire, where)
-            apart += list(combinations(constraint.different_wire, 2))
+            apart += [
+                (run, other)
+                for e, f in combinations(constraint.different_wire, 2)
+                for run in _runs(graph, e)
+                for other in _runs(graph, f)
+            ]
         elif constraint.through is not None:
             required.append(_transitions(graph, constraint.through, constraint.at, where))
         elif constraint.not_through is not None:
@@ -48,14 +56,28 @@ def rules_of(graph: Graph, constraints: Sequence[ConstraintConfig], bridges: boo
         elif constraint.max_wire_length is not None:
             _check_lengths(graph, constraint.max_wire_length, where)
             longest_mm = min(constraint.max_wire_length, longest_mm or constraint.max_wire_length)
-    return Rules(frozenset(forbidden), tuple(required), tuple(ends), tuple(same), tuple(apart), longest_mm)
+    return Rules(
+        frozenset(forbidden),
+        tuple(required),
+        tuple(ends),
+        tuple(same),
+        tuple(apart),
+        longest_mm,
+        most_wires,
+    )
+
+
+def _runs(graph: Graph, e: int) -> list[int]:
+    """A segment, and its second run where one is offered."""
+    return [e, *(other for other, run in graph.second_runs.items() if run.segment == e)]
 
 
 def _check_segments(graph: Graph, segments: Sequence[int], where: str) -> None:
+    drawn = graph.segments - len(graph.second_runs)
     for e in segments:
-        if not 0 <= e < graph.segments:
+        if not 0 <= e < drawn:
             raise ConfigError(
-                f"there is no segment {e}; the drawing has segments 0 to {graph.segments - 1}", where, _HELP
+                f"there is no segment {e}; the drawing has segments 0 to {drawn - 1}", where, _HELP
             )
     if len(set(segments)) < len(segments):
         raise ConfigError("a segment is named twice", where, "name each segment once")
@@ -80,8 +102,10 @@ def _transitions(graph: Graph, segments: tuple[int, int], at: int | None, where:
     first, second = segments
     found = [
         ordered(a, b)
-        for a in half_edges(first)
-        for b in half_edges(second)
+        for one in _runs(graph, first)
+        for other in _runs(graph, second)
+        for a in half_edges(one)
+        for b in half_edges(other)
         if graph.junction_of[a] == graph.junction_of[b]
     ]
     junctions = sorted({graph.junction_of[a] for a, _ in found})
@@ -110,7 +134,7 @@ def _half_edges(graph: Graph, junction: int, where: str) -> tuple[int, ...]:
 
 
 def _check_lengths(graph: Graph, longest_mm: float, where: str) -> None:
-    strokes = [e for e in range(graph.segments) if e not in graph.bridges]
+    strokes = [e for e in range(graph.segments) if e not in graph.optional]
     longest = max(strokes, key=lambda e: graph.lengths_mm[e])
     if graph.lengths_mm[longest] > longest_mm:
         raise ConfigError(

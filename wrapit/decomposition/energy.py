@@ -28,15 +28,18 @@ def energy_of_trails(graph: Graph, trails: Sequence[Trail], weights: Weights, as
     complexity = len(trails)
     smoothness = math.fsum(bend for trail in trails for bend in bends_of(graph, trail))
     robustness = len(weak_trails(graph, trails))
-    bridges = len({t.segment for trail in trails for t in trail.traversals} & graph.bridges)
+    used = {t.segment for trail in trails for t in trail.traversals}
+    bridges = len(used & graph.bridges)
+    doubling = math.fsum(run.cost for e, run in graph.second_runs.items() if e in used)
     total = (
         complexity
         + weights.smoothness * smoothness
         + weights.robustness * robustness
         + weights.bridges * bridges
         + weights.symmetry * asymmetric
+        + weights.doubling * doubling
     )
-    return Energy(complexity, smoothness, robustness, bridges, total, asymmetric)
+    return Energy(complexity, smoothness, robustness, bridges, total, asymmetric, doubling)
 
 
 def bends_of(graph: Graph, trail: Trail) -> list[float]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,19 +22,28 @@ _GRAIN_RAD = 2.0**-33
 _HALF_TURN = round(math.pi / _GRAIN_RAD)
 
 
+class SecondRun(NamedTuple):
+    """What an optional segment is the second run of, and its cost in mean segments."""
+
+    segment: int
+    cost: float
+
+
 @dataclass(frozen=True, eq=False)
 class Graph:
     """A multigraph of segments with directions at their ends, and no other geometry.
 
     Segment e has half-edges 2e (its start) and 2e + 1 (its end). `junction_of[h]` is the junction
     of half-edge h; `tangents` (2 · segments, 2) are unit directions pointing away from the
-    junction; `bridges` are segments that may stay unused. Raises ValueError where sizes disagree.
+    junction. Segments that may stay unused are `bridges` and `second_runs`, which join the same junctions as
+    some other segment does. Raises ValueError where sizes disagree.
     """
 
     junction_of: tuple[int, ...]
     tangents: FloatArray
     lengths_mm: tuple[float, ...]
     bridges: frozenset[int] = frozenset()
+    second_runs: Mapping[int, SecondRun] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         tangents = locked(np.reshape(self.tangents, (-1, 2)))
@@ -45,6 +55,11 @@ class Graph:
     def segments(self) -> int:
         """Number of segments, bridges included."""
         return len(self.lengths_mm)
+
+    @cached_property
+    def optional(self) -> frozenset[int]:
+        """The segments that may stay unused."""
+        return self.bridges | self.second_runs.keys()
 
     @cached_property
     def incident(self) -> tuple[tuple[int, ...], ...]:
@@ -85,7 +100,11 @@ class Graph:
         return bends
 
     def subgraph(self, segments: Sequence[int]) -> Graph:
-        """The graph of these segments alone, segments and junctions renumbered in order."""
+        """The graph of these segments alone, segments and junctions renumbered in order.
+
+        Raises KeyError for a second run without the segment that it is one of.
+        """
+        place = {e: index for index, e in enumerate(segments)}
         ends = [h for e in segments for h in half_edges(e)]
         junctions = sorted({self.junction_of[h] for h in ends})
         number = {junction: index for index, junction in enumerate(junctions)}
@@ -93,7 +112,12 @@ class Graph:
             tuple(number[self.junction_of[h]] for h in ends),
             self.tangents[ends],
             tuple(self.lengths_mm[e] for e in segments),
-            frozenset(index for index, e in enumerate(segments) if e in self.bridges),
+            frozenset(index for e, index in place.items() if e in self.bridges),
+            {
+                place[e]: SecondRun(place[run.segment], run.cost)
+                for e, run in self.second_runs.items()
+                if e in place
+            },
         )
 
 
@@ -129,7 +153,7 @@ def fewest_possible_wires(graph: Graph) -> int:
     Euler: each trail has two ends, and a wire ends at every junction where an odd number of
     segment ends meet.
     """
-    strokes = graph.subgraph([e for e in range(graph.segments) if e not in graph.bridges])
+    strokes = graph.subgraph([e for e in range(graph.segments) if e not in graph.optional])
     odd = [len(ends) % 2 for ends in strokes.incident]
     return sum(
         max(1, sum(odd[j] for j in {strokes.junction_of[h] for e in piece for h in half_edges(e)}) // 2)

@@ -30,6 +30,12 @@ class Problem:
         """The energy of a matching."""
         return energy_of(self.graph, mate, self.weights, self.mirror)
 
+    def price(self, e: int) -> float:
+        """What a segment that may stay unused costs as soon as it is used, a wire more aside."""
+        if e in self.graph.second_runs:
+            return self.weights.doubling * self.graph.second_runs[e].cost
+        return self.weights.bridges
+
     def part(self, segments: Sequence[int]) -> Problem:
         """The problem of these segments alone, renumbered in order."""
         number = {h: index for index, h in enumerate(h for e in segments for h in half_edges(e))}

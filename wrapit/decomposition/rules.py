@@ -15,7 +15,7 @@ class Rules:
 
     `forbidden` transitions never happen; of each group in `required` one does; at one of each group
     of half-edges in `ends` a wire ends; `same` segments lie on one wire, `apart` segments on two; no
-    wire is longer than `longest_mm`.
+    wire is longer than `longest_mm`, and there are no more than `most_wires`.
     """
 
     forbidden: frozenset[Pair] = frozenset()
@@ -24,6 +24,7 @@ class Rules:
     same: tuple[Pair, ...] = ()
     apart: tuple[Pair, ...] = ()
     longest_mm: float | None = None
+    most_wires: int | None = None
 
     def renumbered(self, number: Mapping[int, int]) -> Rules:
         """The rules about the half-edges that have a new number."""
@@ -45,6 +46,7 @@ class Rules:
             same=tuple(segments(self.same)),
             apart=tuple(segments(self.apart)),
             longest_mm=self.longest_mm,
+            most_wires=self.most_wires,
         )
 
 
@@ -56,7 +58,7 @@ NO_RULES = Rules()
 
 
 def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
-    """How many conditions a matching breaks, wires that are too long counted one by one."""
+    """How many conditions a matching breaks, wires that are too long or too many counted one by one."""
     if rules == NO_RULES:
         return 0
     count = sum(mate[a] == b for a, b in rules.forbidden)
@@ -67,13 +69,20 @@ def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
     count += sum(f in wire_through(mate, e) for e, f in rules.apart)
     if rules.longest_mm is not None:
         count += sum(length > rules.longest_mm + SLACK_MM for length in _lengths(graph, mate))
+    if rules.most_wires is not None:
+        count += max(0, wires(graph, mate) - rules.most_wires)
     return count
 
 
+def wires(graph: Graph, mate: Sequence[int]) -> int:
+    """How many wires a matching without rings makes: half the half-edges in use without a mate."""
+    return sum(other == NO_MATE and in_use(graph, mate, h >> 1) for h, other in enumerate(mate)) // 2
+
+
 def in_use(graph: Graph, mate: Sequence[int], e: int) -> bool:
-    """Whether a segment is part of a wire: strokes always, a bridge where it joins something."""
+    """Whether a segment is part of a wire: strokes always, what is optional where it joins something."""
     start, end = half_edges(e)
-    return e not in graph.bridges or mate[start] != NO_MATE or mate[end] != NO_MATE
+    return e not in graph.optional or mate[start] != NO_MATE or mate[end] != NO_MATE
 
 
 def wire_through(mate: Sequence[int], e: int) -> set[int]:

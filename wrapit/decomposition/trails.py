@@ -12,21 +12,21 @@ def trails_of(graph: Graph, mate: Sequence[int]) -> tuple[Trail, ...]:
     """The trails of a matching: longest first (in mm), of equal ones the one with the lowest segment first.
 
     Each runs from the end with the lower half-edge number, so the result depends on nothing but the
-    matching. Bridges that join nothing are left out. Raises ValueError where `mate` isn't a matching
+    matching. Bridges and second runs that join nothing are left out. Raises ValueError where `mate` isn't a matching
     of half-edges that meet, or closes a ring.
     """
     check_matching(graph, mate)
     trails: list[Trail] = []
     seen: set[int] = set()
     for h in range(2 * graph.segments):
-        if mate[h] != NO_MATE or h in seen or (h >> 1 in graph.bridges and mate[h ^ 1] == NO_MATE):
+        if mate[h] != NO_MATE or h in seen or (h >> 1 in graph.optional and mate[h ^ 1] == NO_MATE):
             continue
         steps = walk(mate, h)
         seen.update((h, steps[-1] ^ 1))
         closed = graph.junction_of[h] == graph.junction_of[steps[-1] ^ 1]
         trails.append(Trail(tuple(Traversal(step >> 1, bool(step & 1)) for step in steps), closed))
     covered = {traversal.segment for trail in trails for traversal in trail.traversals}
-    if rings := set(range(graph.segments)) - covered - graph.bridges:
+    if rings := set(range(graph.segments)) - covered - graph.optional:
         raise ValueError(f"segment {min(rings)} is on a ring; a closed wire is left open somewhere")
     return in_wire_order(graph, trails)
 

@@ -46,7 +46,8 @@ def _draws(
     Metropolis: a step that costs Δ is taken with probability exp(−Δ / T), that is when Δ is at most
     T · patience with an exponentially distributed patience.
     """
-    operators = [name for name in schedule.operators if name != "bridge" or problem.graph.bridges]
+    there = {"bridge": problem.graph.bridges, "double": problem.graph.second_runs}
+    operators = [name for name in schedule.operators if there.get(name, True)]
     while True:
         yield from zip(
             [operators[index] for index in rng.integers(len(operators), size=_BLOCK).tolist()],
@@ -62,7 +63,9 @@ def _step(wires: Wires, operator: str, a: int, choice: float, budget: float) -> 
     if operator == "split":
         return mate[a] != NO_MATE and wires.toggle(a, mate[a], budget)
     if operator == "bridge":
-        return _switch(wires, a, choice, budget)
+        return _switch(wires, wires.bridges[a % len(wires.bridges)], choice, budget)
+    if operator == "double":
+        return _switch(wires, wires.second_runs[a % len(wires.second_runs)], choice, budget)
     partners = wires.partners[a]
     if not partners:
         return False
@@ -72,13 +75,12 @@ def _step(wires: Wires, operator: str, a: int, choice: float, budget: float) -> 
     return wires.toggle(a, b, budget)
 
 
-def _switch(wires: Wires, a: int, choice: float, budget: float) -> bool:
-    """Takes a bridge out of use, or joins both its ends to something."""
-    bridge = wires.bridges[a % len(wires.bridges)]
-    first, last = half_edges(bridge)
+def _switch(wires: Wires, optional: int, choice: float, budget: float) -> bool:
+    """Takes a bridge or a second run out of use, or joins both its ends to something."""
+    first, last = half_edges(optional)
     start, end = wires.partners[first], wires.partners[last]
     if wires.mate[first] != NO_MATE or wires.mate[last] != NO_MATE:
-        return wires.drop(bridge, budget)
+        return wires.drop(optional, budget)
     if not start or not end:
         return False
     index, rest = divmod(choice * len(start), 1.0)

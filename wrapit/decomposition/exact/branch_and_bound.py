@@ -6,6 +6,7 @@ import heapq
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import count
 
 from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.exact.cactus.stage import solved_by_blocks
@@ -24,36 +25,49 @@ _WORK = 6_000
 
 
 def certified(problem: Problem) -> Answer:
-    """What local reasoning finds and proves, with no bridge in use and no rule but forbidden transitions.
+    """What local reasoning finds and proves, with nothing optional in use, no rule but forbidden transitions.
 
     Drawings whose rings share no segment are solved block by block. In others, where local reasoning
     can't account for a wire that hangs, all cases are tried: that wire stays, or one of the junctions
     that it runs through is passed in another way. Rules can only raise the energy, so the
-    bound holds with them; bridges may lower it, so where there are any, there is no bound.
+    bound holds with them. Where something is optional, what hangs is left out of the bound.
     """
     graph = problem.graph
-    if graph.bridges:
-        return Answer((NO_MATE,) * (2 * graph.segments), 0, None)
+    if graph.optional:
+        return _with_optional(problem)
     if (answer := solved_by_blocks(problem)) is not None:
         return answer
     root = _reasoned(problem, _Case())
     assert root is not None
     best, rounds = root, root.rounds
-    cases = [(root.bound, 0, root)]
+    numbers = count()
+    cases = [(root.bound, next(numbers), root)]
     while cases and cases[0][0] < best.energy - CLOSE and rounds * graph.segments < _WORK:
         parent = heapq.heappop(cases)[2]
         parts = list(_parted(graph, parent))
         if not parts:
-            heapq.heappush(cases, (parent.bound, rounds, parent))
+            heapq.heappush(cases, (parent.bound, next(numbers), parent))
             break
         for part in parts:
             found = _reasoned(problem, part)
             if found is not None:
                 rounds += found.rounds
-                heapq.heappush(cases, (max(found.bound, parent.bound), rounds, found))
+                heapq.heappush(cases, (max(found.bound, parent.bound), next(numbers), found))
                 best = min(best, found, key=lambda found: found.energy)
     bound = min(best.energy, cases[0][0] if cases else math.inf)
     return Answer(best.mate, rounds, bound, best.energy - bound < CLOSE)
+
+
+def _with_optional(problem: Problem) -> Answer:
+    """Local matchings and a spanning tree, with the price of what is optional shared by its two ends.
+
+    Used at one end only it then counts half, and wires that hang not at all: so much lower is the bound.
+    """
+    graph = problem.graph
+    certificate = certify(graph, LocalCosts(problem, with_prices=True))
+    bound = graph.segments - len(graph.optional) + certificate.bound
+    energy = problem.energy(certificate.mate).total
+    return Answer(tuple(certificate.mate), 1, min(bound, energy), energy - bound < CLOSE)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ Weak = tuple[tuple[int, ...], int]
 
 @dataclass(frozen=True)
 class Cut:
-    """Σ coefficient · x ≤ limit over transitions, bridges in use and weak wires.
+    """Σ coefficient · x ≤ limit over transitions, optional segments in use and weak wires.
 
     `weak` names the variable that is subtracted: one, if the wire along these segments hangs at the
     junction.
@@ -27,7 +27,7 @@ class Cut:
 
     transitions: dict[Pair, float]
     limit: float
-    bridges: dict[int, float] = field(default_factory=dict)
+    used: dict[int, float] = field(default_factory=dict)
     weak: Weak | None = None
 
 
@@ -35,8 +35,18 @@ def ring_cuts(graph: Graph, mate: Sequence[int]) -> Iterator[Cut]:
     """For each ring, that it isn't one; and how often all of them together have to be linked."""
     nodes, rings = ring_of(mate)
     for ring in range(1, rings + 1):
-        inside = {h for h, node in enumerate(nodes) if node == ring}
-        yield Cut(dict.fromkeys(_within(graph, inside), 1.0), len(inside) / 2 - 1)
+        on_it = {h >> 1 for h, node in enumerate(nodes) if node == ring}
+        spare = {
+            e
+            for e, run in graph.second_runs.items()
+            if run.segment in on_it and e not in on_it and not in_use(graph, mate, e)
+        }
+        # One transition less than segments in use, of which one at least always is.
+        certain = on_it - graph.optional
+        some = on_it | spare if certain else on_it
+        used = dict.fromkeys(sorted(some & graph.optional), -1.0) if certain else {}
+        inside = {h for e in some for h in half_edges(e)}
+        yield Cut(dict.fromkeys(_within(graph, inside), 1.0), len(certain or on_it) - 1.0, used)
     if rings > 1:
         yield _partition_cut(graph, nodes, rings)
 
@@ -47,7 +57,7 @@ def weak_cuts(
     """For each weak wire of a matching without rings, that it has to be paid for; `paid` says which are.
 
     A wire along exactly these segments has one transition less than segments, and none that leads
-    out. Bridges may come into use elsewhere and tie it down.
+    out. What is optional may come into use elsewhere and tie it down.
     """
     graph = problem.graph
     trails = trails_of(graph, mate)
@@ -63,17 +73,17 @@ def weak_cuts(
         inside = {h for e in segments for h in half_edges(e)}
         transitions = dict.fromkeys(_within(graph, inside), 1.0) | dict.fromkeys(_across(graph, inside), -1.0)
         junctions = {graph.junction_of[h] for h in inside} - {junction}
-        bridges = {
+        used = {
             h >> 1: -1.0
             for j in sorted(junctions)
             for h in graph.incident[j]
-            if h >> 1 in graph.bridges and h not in inside
+            if h >> 1 in graph.optional and h not in inside
         }
         limit = len(segments) - 2.0
         if tie is not None:
-            bridges[tie] = 1.0
+            used[tie] = 1.0
             limit += 1.0
-        yield Cut(transitions, limit, bridges, (segments, junction))
+        yield Cut(transitions, limit, used, (segments, junction))
 
 
 def rule_cuts(problem: Problem, mate: Sequence[int]) -> Iterator[Cut]:
@@ -112,7 +122,7 @@ def exclusion_cut(graph: Graph, mate: Sequence[int]) -> Cut:
 
 
 def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterator[Cut]:
-    """Segments of a total length need so many wires; or, with bridges, just not this walk."""
+    """Segments of a total length need so many wires; or, with optional ones, just not this walk."""
     seen: set[int] = set()
     for e in range(graph.segments):
         if e in seen or not in_use(graph, mate, e):
@@ -122,13 +132,13 @@ def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterat
         if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + SLACK_MM:
             continue
         inside = {h for f in wire for h in half_edges(f)}
-        strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.bridges))
+        strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.optional))
         needed = math.ceil(strokes / longest_mm - 1e-9)
         if needed > 1:
             yield Cut(
                 dict.fromkeys(_within(graph, inside), 1.0),
-                len(wire - graph.bridges) - needed,
-                dict.fromkeys(sorted(wire & graph.bridges), -1.0),
+                len(wire - graph.optional) - needed,
+                dict.fromkeys(sorted(wire & graph.optional), -1.0),
             )
         else:
             walk = {(h, mate[h]): 1.0 for h in sorted(inside) if h < mate[h]}
@@ -157,9 +167,9 @@ def _partition_cut(graph: Graph, nodes: Sequence[int], rings: int) -> Cut:
 
 
 def _only_tie(graph: Graph, mate: Sequence[int], segments: Sequence[int], junction: int) -> int | None:
-    """The bridge that alone makes the junction a contact, if no stroke does."""
+    """The optional segment that alone makes the junction a contact, if no stroke does."""
     others = [h >> 1 for h in graph.incident[junction] if h >> 1 not in segments]
-    if any(e not in graph.bridges for e in others):
+    if any(e not in graph.optional for e in others):
         return None
     return min(e for e in others if in_use(graph, mate, e))
 

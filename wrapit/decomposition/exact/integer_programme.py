@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from wrapit.decomposition.exact.chosen_segments import used_in, with_chosen
 from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
 from wrapit.decomposition.exact.junction_matching import LocalCosts
 from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
@@ -72,7 +73,11 @@ def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:
     repaired = list(mate)
     open_rings(problem.graph, LocalCosts(problem), repaired)
     yield repaired
-    yield descended(problem, repaired)
+    if problem.graph.second_runs:
+        # Local moves take long where every line may be run along twice, and find less than this.
+        yield with_chosen(problem, used_in(problem, mate))
+    else:
+        yield descended(problem, repaired)
 
 
 def _fits(problem: Problem, mate: Sequence[int], excluded: Sequence[Cut]) -> bool:
@@ -107,17 +112,17 @@ class _Model:
                         programme.add_column((a, b), cost)
             for row, high in self._matching_rows(ends):
                 programme.add_row(row, high=high)
-        for bridge in sorted(graph.bridges):
-            self._add_bridge(programme, bridge)
+        for e in sorted(graph.optional):
+            self._add_optional(programme, e)
         self._add_rules(programme)
         for cut in self._cuts:
             broken: dict[Name, float] = dict(cut.transitions)
-            broken |= {("bridge", bridge): coefficient for bridge, coefficient in cut.bridges.items()}
+            broken |= {("used", e): coefficient for e, coefficient in cut.used.items()}
             if cut.weak:
                 programme.add_column(("weak", *cut.weak), weights.robustness, whole=False)
                 broken["weak", *cut.weak] = -1.0
             programme.add_row(broken, high=cut.limit)
-        strokes = graph.segments - len(graph.bridges)
+        strokes = graph.segments - len(graph.optional)
         rest = sum(costs.best(j)[0] for j in range(len(graph.incident)) if j not in self._active)
         return programme, strokes + rest
 
@@ -150,29 +155,47 @@ class _Model:
         pair = self._costs.pair
         for h in ends:
             row: dict[Name, float] = {ordered(h, b): 1.0 for b in pair[h]}
-            bridge = h >> 1 in self._graph.bridges
-            if bridge:
-                row["bridge", h >> 1] = -1.0
-            yield row, 0.0 if bridge else 1.0
+            optional = h >> 1 in self._graph.optional
+            if optional:
+                row["used", h >> 1] = -1.0
+            yield row, 0.0 if optional else 1.0
         odd = [three for three in combinations(ends, 3) if len(ends) <= _ALL_TRIPLES_DEGREE]
         for some in [*odd, *([ends] if len(ends) % 2 and len(ends) > 3 else [])]:
             yield dict.fromkeys(combinations(sorted(some), 2), 1.0), float(len(some) // 2)
+        yield from self._odd_rows(ends)
 
-    def _add_bridge(self, programme: Programme, bridge: int) -> None:
-        """A bridge counts as one more wire and its own weight as soon as it joins something."""
-        weights, pair = self._problem.weights, self._costs.pair
-        programme.add_column(("bridge", bridge), 1.0 + weights.bridges)
-        row: dict[Name, float] = {ordered(h, b): -1.0 for h in half_edges(bridge) for b in pair[h]}
-        programme.add_row({**row, ("bridge", bridge): 1.0}, high=0.0)
+    def _odd_rows(self, ends: Sequence[int]) -> Iterator[tuple[dict[Name, float], float]]:
+        """Where an odd number of half-edges is in use, one stays without a mate."""
+        optional = [h for h in ends if h >> 1 in self._graph.optional]
+        if not optional:
+            return
+        certain = len(ends) - len(optional)
+        for counted in [()] if certain % 2 else [(h,) for h in optional]:
+            row: dict[Name, float] = dict.fromkeys(combinations(sorted(ends), 2), 1.0)
+            for h in optional:
+                if h not in counted:
+                    row["used", h >> 1] = row.get(("used", h >> 1), 0.0) - 1.0
+            yield row, float((certain + len(counted)) // 2)
+
+    def _add_optional(self, programme: Programme, e: int) -> None:
+        """What is optional counts as one more wire and its own price as soon as it joins something."""
+        pair = self._costs.pair
+        programme.add_column(("used", e), 1.0 + self._problem.price(e))
+        row: dict[Name, float] = {ordered(h, b): -1.0 for h in half_edges(e) for b in pair[h]}
+        programme.add_row({**row, ("used", e): 1.0}, high=0.0)
 
     def _add_rules(self, programme: Programme) -> None:
         graph, rules, pair = self._graph, self._problem.rules, self._costs.pair
+        if rules.most_wires is not None:
+            wires: dict[Name, float] = {(a, b): -1.0 for a, mates in enumerate(pair) for b in mates if a < b}
+            wires |= {("used", e): 1.0 for e in graph.optional}
+            programme.add_row(wires, high=rules.most_wires - graph.segments + len(graph.optional))
         for group in rules.required:
             programme.add_row(dict.fromkeys(group, 1.0), low=1.0)
         for ends in rules.ends:
             row: dict[Name, float] = {(a, b): 2.0 for a in ends for b in pair[a] if a < b}
-            row |= {("bridge", h >> 1): -1.0 for h in ends if h >> 1 in graph.bridges}
-            programme.add_row(row, high=sum(h >> 1 not in graph.bridges for h in ends) - 1.0)
+            row |= {("used", h >> 1): -1.0 for h in ends if h >> 1 in graph.optional}
+            programme.add_row(row, high=sum(h >> 1 not in graph.optional for h in ends) - 1.0)
         for v, _ in mirrored_junctions(graph, self._problem.mirror):
             programme.add_column(("unlike", v), self._problem.weights.symmetry, whole=False)
             self._add_likeness(programme, v)
@@ -198,10 +221,10 @@ class _Model:
 
     def _ruled_junctions(self) -> set[int]:
         graph, rules = self._graph, self._problem.rules
-        if rules.apart or self._cuts:
+        if rules.apart or self._cuts or rules.most_wires is not None:
             return set(range(len(graph.incident)))
-        bridged = {graph.junction_of[h] for e in graph.bridges for h in half_edges(e)}
+        optional = {graph.junction_of[h] for e in graph.optional for h in half_edges(e)}
         ended = {graph.junction_of[ends[0]] for ends in rules.ends}
         required = {graph.junction_of[a] for group in rules.required for a, _ in group}
         mirrored = {j for pair in mirrored_junctions(graph, self._problem.mirror) for j in pair}
-        return mirrored | bridged | required | ended
+        return mirrored | optional | required | ended

@@ -54,15 +54,27 @@ class LocalCosts:
 
     `pair[a][b]` is the cost of the transition a–b, `free[h]` that of a wire end at h, and
     `loose[h]`, for h the lower of two half-edges, that of two wire ends at both. Junctions in
-    `allowed` have no other matchings than those of `matchings_of(degree)` with these indices.
+    `allowed` have no other matchings than those of `matchings_of(degree)` with these indices. With prices,
+    the costs of all junctions add up to no more than those of any matching, optional segments included.
     """
 
-    def __init__(self, problem: Problem, allowed: Mapping[int, frozenset[int]] | None = None) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        allowed: Mapping[int, frozenset[int]] | None = None,
+        *,
+        with_prices: bool = False,
+    ) -> None:
         self._allowed = allowed or {}
         graph, weights = problem.graph, problem.weights
         self.incident = graph.incident
+        # Where prices count here, half of what an optional segment costs is paid at either end.
+        half = [0.0] * (2 * graph.segments)
+        for e in graph.optional if with_prices else ():
+            half[2 * e] = half[2 * e + 1] = (1.0 + problem.price(e)) / 2
         self.pair = [
-            {b: weights.smoothness * bend - 1.0 for b, bend in bends.items()} for bends in graph.bends_rad
+            {b: weights.smoothness * bend - 1.0 + half[a] + half[b] for b, bend in bends.items()}
+            for a, bends in enumerate(graph.bends_rad)
         ]
         for a, b in problem.rules.forbidden:
             self.pair[a].pop(b, None)

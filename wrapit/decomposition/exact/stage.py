@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from wrapit.decomposition.exact.branch_and_bound import certified
-from wrapit.decomposition.problem import Answer, Problem
+from wrapit.decomposition.exact.chosen_segments import with_chosen
+from wrapit.decomposition.exact.postman import least_second_runs
+from wrapit.decomposition.problem import CLOSE, Answer, Problem
+
+
+def _improved(problem: Problem, known: Answer, most_wires: int) -> Answer:
+    """What is known, or what the postman's second runs give if that is allowed and better."""
+    used, price = least_second_runs(problem, most_wires)
+    mate = tuple(with_chosen(problem, used))
+    bound = max(known.lower_bound or 0.0, 1.0 + price)
+    if problem.is_allowed(known.mate) and problem.energy(known.mate).total <= problem.energy(mate).total:
+        mate = known.mate
+    return Answer(mate, known.iterations, bound, problem.energy(mate).total - bound < CLOSE)
 
 
 def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]] = ()) -> Answer | None:
@@ -17,6 +29,8 @@ def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]]
     known = certified(problem)
     if known.proven and problem.is_allowed(known.mate) and not others:
         return known
+    if problem.graph.optional and problem.rules.most_wires is not None:
+        known = _improved(problem, known, problem.rules.most_wires)
     # Loads scipy's optimisers, which takes longer than most drawings.
     from wrapit.decomposition.exact.integer_programme import solve_by_cuts
 

@@ -10,10 +10,10 @@ def smallest_branches(graph: Graph) -> list[int]:
 
     A wire that touches the others at one junction v only is a union of branches at v: parts of the
     drawing that nothing but v joins to the rest. Most wires are shorter than any branch they could
-    fill, which settles in no time that they are not weak. Bridges are taken as absent: using them
+    fill, which settles in no time that they are not weak. What is optional is taken as absent: using it
     only makes branches larger.
     """
-    strokes = [e for e in range(graph.segments) if e not in graph.bridges]
+    strokes = [e for e in range(graph.segments) if e not in graph.optional]
     alone = graph.subgraph(strokes)
     smallest = [0] * graph.segments
     for piece in pieces(alone):

@@ -29,7 +29,7 @@ def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
 
 
 class Wires:
-    """Wires that grow and shrink, starting with one per stroke and no bridge unless `mate` says otherwise.
+    """Wires that grow and shrink, starting with one per stroke and nothing optional unless `mate` says otherwise.
 
     `mate` is always a valid matching without rings; `energy` follows it. Rules that it breaks add to
     the energy, each more than any move can save; forbidden transitions are never made.
@@ -46,9 +46,10 @@ class Wires:
         self._weak = start.robustness
         self.energy = start.total + self._extra - weights.symmetry * start.asymmetry
         self.bridges = sorted(graph.bridges)
+        self.second_runs = sorted(graph.second_runs)
         self._graph = graph
         self._weak_cost = weights.robustness
-        self._bridge_cost = 1.0 + weights.bridges
+        self._cost = {e: 1.0 + problem.price(e) for e in graph.optional}
         # What a transition saves: one wire, less its bend.
         self._saved = [
             {
@@ -62,7 +63,7 @@ class Wires:
         self._smallest = smallest_branches(graph)
         self._closing: set[tuple[int, int]] = set()
         self._fragile = weights.robustness > 0 and (
-            bool(graph.bridges) or any(size < graph.segments for size in self._smallest)
+            bool(graph.optional) or any(size < graph.segments for size in self._smallest)
         )
 
     def toggle(self, a: int, b: int, budget: float) -> bool:
@@ -72,16 +73,16 @@ class Wires:
         return self._apply(*self._transition(a, b), budget)
 
     def use(self, a: int, b: int, c: int, d: int, budget: float) -> bool:
-        """Makes a–b and c–d transitions at once, if that costs at most `budget`: both ends of a bridge."""
+        """Makes a–b and c–d transitions at once, if that costs at most `budget`: both ends of what is optional."""
         first, second = self._transition(a, b), self._transition(c, d)
         return self._apply(first[0] + second[0], first[1] + second[1], budget)
 
-    def drop(self, bridge: int, budget: float) -> bool:
-        """Takes a bridge out of use, if it is in use and that costs at most `budget`."""
+    def drop(self, optional: int, budget: float) -> bool:
+        """Takes a bridge or a second run out of use, if it is in use and that costs at most `budget`."""
         mate, saved = self.mate, self._saved
         changes: list[tuple[int, int]] = []
         delta = 0.0
-        for h in half_edges(bridge):
+        for h in half_edges(optional):
             if (other := mate[h]) != NO_MATE:
                 changes += [(h, NO_MATE), (other, NO_MATE)]
                 delta += saved[h][other]
@@ -111,15 +112,15 @@ class Wires:
     def _apply(self, changes: list[tuple[int, int]], delta: float, budget: float) -> bool:
         mate, fragile = self.mate, self._fragile
         touched: Iterable[int] = [h for h, _ in changes]
-        bridges = self._graph.bridges
+        optional = self._graph.optional
         toggled: list[int] = []
-        if bridges and (near := {h >> 1 for h in touched} & bridges):
+        if optional and (near := {h >> 1 for h in touched} & optional):
             toggled = sorted(near)
-            delta -= self._bridge_cost * sum(self._in_use(e) for e in toggled)
+            delta -= sum(self._cost[e] for e in toggled if self._in_use(e))
         elif delta - self._weak_cost * min(2, self._weak) - self._extra > budget:
             return False
         if toggled:
-            # A bridge that comes into use touches wires that the move itself leaves alone.
+            # What comes into use touches wires that the move itself leaves alone.
             touched = self._around(touched, toggled)
         weak_before = self._weak_wires(touched) if fragile else 0
         if not toggled and delta - self._weak_cost * weak_before - self._extra > budget:
@@ -128,7 +129,7 @@ class Wires:
         for h, other in changes:
             mate[h] = other
         if toggled:
-            delta += self._bridge_cost * sum(self._in_use(e) for e in toggled)
+            delta += sum(self._cost[e] for e in toggled if self._in_use(e))
         if not self._closes_ring(changes):
             mended = weak_before - (self._weak_wires(touched) if fragile else 0)
             delta -= self._weak_cost * mended
@@ -149,8 +150,8 @@ class Wires:
         unlike = sum(is_unlike(ends, problem.mirror, self.mate) for ends in self._mirrored)
         return _PENALTY * broken(problem.graph, problem.rules, self.mate) + problem.weights.symmetry * unlike
 
-    def _in_use(self, bridge: int) -> bool:
-        start, end = half_edges(bridge)
+    def _in_use(self, optional: int) -> bool:
+        start, end = half_edges(optional)
         return self.mate[start] != NO_MATE or self.mate[end] != NO_MATE
 
     def _around(self, touched: Iterable[int], toggled: Iterable[int]) -> list[int]:
@@ -201,7 +202,7 @@ class Wires:
 
     def _hangs(self, segments: list[int]) -> bool:
         """Whether the wire along these segments touches others at one junction exactly."""
-        if len(segments) == 1 and segments[0] in self._graph.bridges and not self._in_use(segments[0]):
+        if len(segments) == 1 and segments[0] in self._graph.optional and not self._in_use(segments[0]):
             return False
         junction_of, incident = self._graph.junction_of, self._graph.incident
         counts: dict[int, int] = {}
@@ -209,12 +210,12 @@ class Wires:
             for h in half_edges(e):
                 junction = junction_of[h]
                 counts[junction] = counts.get(junction, 0) + 1
-        bridges = self._graph.bridges
+        optional = self._graph.optional
         contacts = 0
         for junction, count in counts.items():
             present = len(incident[junction])
-            if bridges:
-                present -= sum(h >> 1 in bridges and not self._in_use(h >> 1) for h in incident[junction])
+            if optional:
+                present -= sum(h >> 1 in optional and not self._in_use(h >> 1) for h in incident[junction])
             contacts += count < present
             if contacts > 1:
                 return False
