@@ -14,8 +14,7 @@ from wrapit.geometry.arrays import IntArray, runs
 from wrapit.wires.beside.sides import Strand, Stretch
 from wrapit.wires.model import DoubleRun, Side
 
-# How finely wires are compared; a run is beside the other between these shares of their distance. Where they
-# part a tenth comes within 1 mm of the corner, and with a twentieth or a sixth runs end 0.1 mm elsewhere.
+# How finely wires are compared; a run is beside the other between these shares of their distance.
 STEP_MM, LEAST, MOST = 0.05, 0.7, 1.1
 # Beside is square to the way, within this (sine): a place ahead on a hairpin's tip is not beside.
 OBLIQUE = 0.3

@@ -11,8 +11,7 @@ from wrapit.wires.beside.shifting import Ramp, Shift
 
 # The steepest bend of 6 x⁵ - 15 x⁴ + 10 x³: its second derivative at x = (3 - √3) / 6.
 BEND: Final = 10 / math.sqrt(3)
-# A ramp on a straight line bends by so many least radii: with 3 a corner next to it may become too tight,
-# with 5 it takes a tenth more of the line.
+# A ramp on a straight line bends by so many least radii, so that a corner next to it has room left.
 RADII = 4.0
 # It is shortened to this where it has no room, and then bends 2.8 times as tightly: by 1.4 radii.
 SHORTEST = 0.6

@@ -21,7 +21,6 @@ STEP_MM = 0.1
 # How closely bends are looked at, as those of whole wires are (`stage.py`).
 LOOK_MM = 0.02
 # A run that keeps less than this of the radius of its line, or turns back on itself, can't be laid beside it.
-# With 0.1 or 0.2 the same runs of our drawings are left out.
 LEAST_ROOM = 0.15
 
 

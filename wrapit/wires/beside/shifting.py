@@ -18,14 +18,14 @@ from wrapit.wires.beside.bulb import arc
 
 # How near cubics come to what they stand for: a hundredth of the room that two runs have between them.
 TOLERANCE_MM = 1e-4
-# A cubic of at most 45° bends by no more than 0.1 % more than its arc.
+# A longer cubic bends visibly more or less than its arc.
 PIECE_RAD = math.pi / 4
 # Directions and bends of either side of a joint are read so near to it: far less than anything that bends,
 # far more than rounding loses.
 NUDGE_MM = 1e-7
 # What turns by more than this at a joint of the chain is a fold; all other bends of it are rounded.
 KINK_RAD = 1e-3
-# How finely σ of a ramp is found, and how often it is tried: with a third more of each, runs move by 1e-6 mm.
+# How finely σ of a ramp is found, how often it is tried, and how slowly it rises at least.
 STEP_MM, ROUNDS = 0.01, 40
 LEAST_GROWTH = 0.05
 # Cubics are halved as long as they miss; this often, and the shortest is a millionth of the first.
