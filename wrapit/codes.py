@@ -92,6 +92,10 @@ WIRES: Final = {
     "doubled-wire": Saying(
         "hanging lines are laid back over themselves", "set `decomposition.refine_dangling: never`"
     ),
+    "hairpin-short": Saying(
+        "a wire turns back beyond the end of its line, which is too short for the bend",
+        "lengthen the line, or use thinner or softer wire",
+    ),
     "jump-ring": Saying(
         "no wire ends where the bail is to be; the guide lists a jump ring", "set `bail.at` to a free end"
     ),
@@ -107,6 +111,10 @@ WIRES: Final = {
         "join them with a line, or set `decomposition.bridges: true`",
     ),
     "slight-turn": Saying("a slight bend is left to the hand, without a wall", "lower `jig.turn_angle`"),
+    "tight-double": Saying(
+        "two runs along one line lie upon one another, as it bends too tightly for both side by side",
+        "draw the line with wider bends, or use thinner wire",
+    ),
     "tight-bend": Saying(
         "the drawing asks for a bend that damages the wire, or can't be made",
         "make the piece larger, use thinner or softer wire, or set `fit: gentle`",

@@ -17,17 +17,19 @@ from wrapit.exports.svgpage import MANY_LABELS
 
 
 def test_wires_are_numbered_and_doubled_segments_drawn_twice() -> None:
-    solution, wires = eye()
+    solution, _ = eye()
+    wires, _ = draw_wires(solution)
     assert solution.doubled == (4,)
     root = root_of(decomposition_svg(solution, wires))
     groups = {group.get("id"): group for group in root.iter(f"{NS}g")}
     assert groups["wire-01"].get("stroke") == wires[0].colour
     assert [text.text for text in texts(root)] == ["1", "2"]
-    # The stem out, round the eye, the stem back: three runs, of which the passes of the stem lie apart.
-    runs = [path.get("d", "") for path in groups["wire-01"].iter(f"{NS}path")]
-    assert len(runs) == 3
-    heights = [float(run.split("L")[1].split(",")[1]) for run in (runs[0], runs[2])]
-    assert abs(heights[0] - heights[1]) == pytest.approx(1.1 * wires[0].diameter_mm, abs=1e-3)
+    # The stem out, round the eye, the stem back: both passes of the stem are drawn side by side, as they lie.
+    (run,) = (path.get("d", "") for path in groups["wire-01"].iter(f"{NS}path"))
+    ends = [place.split(",") for place in (run[1 : run.index("C")], run.split(" ")[-1])]
+    assert float(ends[0][0]) == pytest.approx(float(ends[1][0]), abs=1e-3)
+    aside = abs(float(ends[0][1]) - float(ends[1][1]))
+    assert aside == pytest.approx(1.02 * wires[0].diameter_mm, abs=1e-3)
     assert len(root.findall(f".//{NS}circle[@class='end']")) == 3  # the closed wire has one
 
 

@@ -18,8 +18,6 @@ from wrapit.exports.svgpage import (
     page,
     text,
 )
-from wrapit.geometry import BezierChain, FloatArray, unit
-from wrapit.geometry.arclength import piece
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.label_places import Label, place_labels
 from wrapit.geometry.svgframe import SvgFrame
@@ -32,7 +30,7 @@ OUTLINE = "#222222"
 def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     """SVG in true millimetres: each wire in its colour and thickness, its number where it starts.
 
-    Wire ends have a dark ring; a segment that is run along twice is drawn as two lines side by side.
+    Wire ends have a dark ring. Two runs along one segment lie side by side, as the wires do.
     Of very many wires those without room have no number; each says its own where the pointer rests on it.
     """
     low, high = solution.decomposition.drawing.bounds_mm
@@ -43,11 +41,9 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     labels = place_labels(wanted, ink, size_mm, rings=CROWDED_RINGS if crowded else None)
     low, high = bounds_with_labels(low, high, labels)
     frame = SvgFrame.around(low, high, size_mm)
-    doubled = set(solution.doubled)
     body = [f'<g font-family="{FONT}" font-weight="bold">']
-    seen: set[int] = set()
     for wire in wires:
-        body += _strokes(wire, doubled, seen, frame, named=crowded)
+        body += _strokes(wire, frame, named=crowded)
     for wire in wires:
         body += _ends(wire, frame)
     body += [*_numbers(wires, labels, frame, size_mm), "</g>"]
@@ -56,40 +52,17 @@ def decomposition_svg(solution: Solution, wires: Sequence[Wire]) -> str:
     return page(frame, f"The drawing divided into {count}", f"Lengths: {lengths}", body)
 
 
-def _strokes(wire: Wire, doubled: set[int], seen: set[int], frame: SvgFrame, *, named: bool) -> list[str]:
-    """The wire as paths; `seen` collects the doubled segments drawn so far, by any wire."""
-    chain = chain_of(wire.centreline)
-    shapes: list[str] = []
-    plain_from = 0.0
-    for traversal, (start, end) in zip(wire.traversals, wire.segment_spans_mm, strict=True):
-        if traversal.segment not in doubled:
-            continue
-        if start - plain_from > 1e-6:
-            shapes.append(frame.path(piece(chain, plain_from, start)))
-        # Both passes are seen from the segment's own direction, so that they lie on opposite sides.
-        side = -1.0 if traversal.segment in seen else 1.0
-        seen.add(traversal.segment)
-        shift = side * (-1.0 if traversal.reversed else 1.0) * 0.55 * wire.diameter_mm
-        shapes.append(frame.polyline(_beside(piece(chain, start, end), shift)))
-        plain_from = end
-    if chain.length - plain_from > 1e-6:
-        shapes.append(frame.path(piece(chain, plain_from, chain.length)))
+def _strokes(wire: Wire, frame: SvgFrame, *, named: bool) -> list[str]:
     style = attributes(
         stroke=wire.colour,
-        stroke_width=wire.diameter_mm * (0.6 if doubled else 0.8),
+        stroke_width=0.8 * wire.diameter_mm,
         fill="none",
         stroke_linecap="round",
         stroke_linejoin="round",
     )
-    drawn = [f"<path {attributes(d=shape)}/>" for shape in shapes]
     tip = [f"<title>wire {wire.number}</title>"] if named else []
-    return [f'<g id="{wire.name}" {style}>', *tip, *drawn, "</g>"]
-
-
-def _beside(chain: BezierChain, shift_mm: float) -> FloatArray:
-    points = chain.sampled(0.1)
-    along = unit(np.gradient(points, axis=0))
-    return points + shift_mm * np.column_stack([-along[:, 1], along[:, 0]])
+    path = f"<path {attributes(d=frame.path(chain_of(wire.centreline)))}/>"
+    return [f'<g id="{wire.name}" {style}>', *tip, path, "</g>"]
 
 
 def _ends(wire: Wire, frame: SvgFrame) -> list[str]:

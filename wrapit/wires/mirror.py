@@ -41,6 +41,7 @@ def _mirrored(wire: Wire) -> Wire:
         bindings=tuple(
             dataclasses.replace(binding, point=flipped(binding.point)) for binding in wire.bindings
         ),
+        doubles=tuple(dataclasses.replace(run, side=OTHER_SIDE[run.side]) for run in wire.doubles),
         beads=tuple(dataclasses.replace(bead, aside_mm=-bead.aside_mm) for bead in wire.beads),
     )
 

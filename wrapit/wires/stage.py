@@ -8,16 +8,17 @@ import numpy as np
 
 from wrapit.config import Config
 from wrapit.decomposition.json_file import wire_name
-from wrapit.decomposition.model import Solution, Trail
-from wrapit.drawing.model import Drawing
+from wrapit.decomposition.model import Solution
 from wrapit.errors import Finding
 from wrapit.fit.limits import corner_radius_mm, least_radius_mm
 from wrapit.fit.model import Bead
-from wrapit.geometry import BezierChain, from_chain
+from wrapit.geometry import from_chain
 from wrapit.geometry.arclength import ArcLength
 from wrapit.materials import METALS
 from wrapit.wires.bail import with_bail
-from wrapit.wires.centreline import FOLD_RAD, Joined, join
+from wrapit.wires.beside.double_runs import double_runs
+from wrapit.wires.beside.stage import APART, lay_beside
+from wrapit.wires.centreline import FOLD_RAD, Joined
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
 from wrapit.wires.stacking import lay_wires, layers_of
@@ -35,20 +36,22 @@ def draw_wires(
     """Each trail as one exact cubic B-spline with turns, lengths, connections and heights.
 
     Corners tighter than the metal allows, or than a post of the jig, are rounded; findings name bends that
-    can't be made. With a bail, the end of one wire goes on into its loop. Beads are put on the wires.
+    can't be made. Two runs along the same lines lie side by side. With a bail, the end of one wire goes on
+    into its loop. Beads are put on the wires.
     """
     drawing, wire = solution.decomposition.drawing, config.wire
     radius_mm, corner_mm = least_radius_mm(config), corner_radius_mm(config)
-    joined = [join(_curves(drawing, trail), corner_mm) for trail in solution.trails]
-    joined, bails, said = with_bail(joined, drawing, config)
+    beside = lay_beside(drawing, solution.trails, wire.gauge, corner_mm)
+    joined, bails, said = with_bail(beside.joined, drawing, config)
     names = [wire_name(index) for index in range(len(joined))]
     splines = [from_chain(each.chain) for each in joined]
     bindings = find_bindings(drawing, solution.trails, names, [each.spans_mm for each in joined])
     lifts = lay_wires(splines, wire.gauge)
-    findings: list[Finding] = [*said]
+    doubles = double_runs(beside.stretches, splines, [each.spans_mm for each in joined], APART * wire.gauge)
+    findings: list[Finding] = [*said, *beside.findings]
     wires = []
-    for index, (name, trail, each, spline) in enumerate(
-        zip(names, solution.trails, joined, splines, strict=True)
+    for index, (name, trail, each, spline, moved_mm) in enumerate(
+        zip(names, solution.trails, joined, splines, beside.moved_mm, strict=True)
     ):
         turns, slight = find_turns(name, spline, config.jig)
         lengths = ArcLength(spline)
@@ -68,21 +71,17 @@ def draw_wires(
                 turns=turns,
                 bindings=bindings[index],
                 min_bend_radius_mm=min_radius_mm,
-                max_deviation_from_drawing_mm=max((c.deviation_mm for c in each.corners), default=0.0),
+                max_deviation_from_drawing_mm=max([moved_mm, *(c.deviation_mm for c in each.corners)]),
                 layers=layers_of(lifts[index], wire.gauge),
                 mass_g=METALS[wire.metal].mass_g(length_mm, wire.gauge),
                 closed=trail.closed,
                 colour=wire_colour(index),
                 lifts=lifts[index],
                 bail=bails.get(index),
+                doubles=doubles[index],
             )
         )
     return with_beads(wires, beads), tuple(findings)
-
-
-def _curves(drawing: Drawing, trail: Trail) -> list[BezierChain]:
-    curves = [(drawing.segments[step.segment].curve, step.reversed) for step in trail.traversals]
-    return [curve.reversed() if backwards else curve for curve, backwards in curves]
 
 
 def _tightest(

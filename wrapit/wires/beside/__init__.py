@@ -1,0 +1,1 @@
+"""Two runs of wire along the same lines, laid side by side."""
