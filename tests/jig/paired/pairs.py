@@ -6,8 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from tests.jig.metal import AWG18_MM, arcs, wires_of
 from wrapit.config import JigConfig
+from wrapit.geometry import BezierChain
 from wrapit.wires.model import DoubleRun, Side, Wire
 
 D = AWG18_MM
@@ -46,6 +49,21 @@ def two_wires(parts: Parts, *, opposed: bool = False, config: JigConfig | None =
     return (
         replace(one, doubles=(DoubleRun(0, one.length_mm, two.name, "left", opposed, True),)),
         replace(two, doubles=(DoubleRun(0, two.length_mm, one.name, side, opposed, False),)),
+    )
+
+
+def meeting(radius_mm: float, degrees: float) -> tuple[Wire, Wire]:
+    """A straight wire, and one that comes to its left side, goes along with it for 20 mm, and leaves it."""
+    here, along = (20.0, D / 2), 20.0
+    coming = arcs(here, math.pi, (radius_mm, -degrees), (15, 0)).reversed()
+    leaving = arcs(here, 0, (along, 0), (radius_mm, degrees), (15, 0))
+    points = np.concatenate([coming.points, leaving.points])
+    points[len(coming.points) - 1, 3] = points[len(coming.points), 0]
+    one, two = wires_of([arcs((0, -D / 2), 0, (60, 0)), BezierChain(points)])
+    met = length_mm(((radius_mm, degrees), (15, 0)))
+    return (
+        replace(one, doubles=(DoubleRun(here[0], here[0] + along, two.name, "left", False, True),)),
+        replace(two, doubles=(DoubleRun(met, met + along, one.name, "right", False, False),)),
     )
 
 

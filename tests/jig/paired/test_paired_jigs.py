@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.jig.paired.pairs import SHAPES, STRAIGHT, D, Parts, hairpin, two_wires
-from wrapit.config import JigConfig, PlateConfig
+from tests.jig.paired.pairs import SHAPES, STRAIGHT, D, Parts, hairpin, meeting, two_wires
+from wrapit.config import Config, JigConfig, PlateConfig
 from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.channel import SIDES
+from wrapit.jig.channel import SIDES, Channels
 from wrapit.jig.paired.between import metal_between
+from wrapit.jig.parting.grouping import support_losses
+from wrapit.jig.pegs.placing import place_pegs
 from wrapit.jig.printed.course_groove import LEAST_WIDTH_MM
 from wrapit.jig.printed.planning import PlannedJig, plan_jigs
 from wrapit.jig.sheet.stage import plan_stacks
@@ -115,6 +118,21 @@ def test_round_any_turn_the_channel_of_a_pair_is_one(
     assert middle.difference(jig.channels.area).area < 1e-6
 
 
+@settings(max_examples=10, deadline=None)
+@given(st.floats(2.5, 12), st.floats(30, 90))
+def test_where_runs_meet_and_part_no_wall_is_in_the_way(radius: float, degrees: float) -> None:
+    wires = meeting(radius, degrees)
+    config = JigConfig(split="single")
+    (jig,) = jigs_of(wires, config)
+    walls = [wall.outline for wall in jig.plan.walls]
+    check_walls(wires, walls, config.inside_gap)
+    # Nothing that ends between both channels is narrower than the narrowest wall, but for its tip.
+    for wall in walls:
+        half = config.min_wall_width / 2 - 0.01
+        assert wall.difference(wall.buffer(-half).buffer(half * 1.5)).area < 0.02
+    assert max(course.off_mm.max() for course in jig.plan.laid) < config.taut_tolerance
+
+
 @pytest.mark.parametrize("how", ["along", "opposed", "fold"])
 def test_the_plate_has_one_groove_for_both(how: str) -> None:
     config = JigConfig(numbers=False)
@@ -183,3 +201,29 @@ def test_a_hairpin_that_nothing_fits_into_is_told() -> None:
     wire = hairpin(STRAIGHT, 0.7)
     _, said = plan_jigs((wire,), JigConfig())
     assert "weak-turn" in {each.code for each in said}
+
+
+@pytest.mark.parametrize("opposed", [False, True])
+def test_who_leans_loses_nothing_to_the_other(opposed: bool) -> None:
+    wires = two_wires(SHAPES["arc"], opposed=opposed)
+    outer, inner = support_losses(wires, JigConfig())
+    assert outer.max() < 0.05  # a tail's hole may take a bit
+    assert inner.max() < 0.05
+    strangers = tuple(replace(wire, doubles=()) for wire in wires)
+    assert support_losses(strangers, JigConfig()).max() > 0.9
+
+
+def test_pegs_stand_inside_the_inner_run_alone() -> None:
+    wires = two_wires(SHAPES["arc"])
+    config = Config(drawing="drawing.svg", jigs=("pegs",))
+    plan = place_pegs(Channels.of(wires, config.jig), config.pegs)
+    asked = [*plan.unserved, *(turn for peg in plan.pegs for turn, _ in peg.turns)]
+    assert asked == list(wires[1].turns)
+
+
+def test_the_wall_of_a_pair_is_as_thick_as_that_of_its_inner_run_alone() -> None:
+    """Room for fingers is not kept on the side where the other run lies: there the wall of both stands."""
+    wires, config = two_wires(SHAPES["arc"]), JigConfig.model_validate({"room": "4 mm"})
+    (pair,), (alone,) = jigs_of(wires, config), jigs_of(wires[1:], config)
+    (wall,), (same,) = pair.plan.walls, alone.plan.walls
+    assert wall.outline.symmetric_difference(same.outline).area < 0.05 * same.outline.area
