@@ -134,6 +134,9 @@ JIG: Final = {
     "bead-below-plate": Saying(
         "a bead reaches through the plate", "lay the jig on strips, or raise `jig.base_thickness`"
     ),
+    "bead-between-runs": Saying(
+        "a bead is where another run lies close beside its wire", "move the bead to where the wire runs alone"
+    ),
     "bead-without-seat": Saying(
         "a bead has no seat: something else is too near", "put it on when the wire is out, or build larger"
     ),

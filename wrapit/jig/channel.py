@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, Final
@@ -14,6 +15,7 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.bezier import evenly_evaluated
 from wrapit.geometry.bspline import chain_of
 from wrapit.geometry.outlines.exact import Outliner
+from wrapit.jig.paired.leaning import walled
 from wrapit.wires.model import Side, Turn, Wire
 
 # How a polygon stands for a channel. Chords stray from the centreline by SAGITTA, the buffer's 32 segments a
@@ -71,6 +73,15 @@ class Channels:
     def face_mm(self) -> float:
         """From a wire's centreline to the face of a wall that holds it."""
         return self.diameter_mm / 2 + self.inside_gap_mm
+
+    @cached_property
+    def turns(self) -> tuple[Turn, ...]:
+        """The turns and long stretches that walls are to hold, wire after wire."""
+        return self.walled(turn for wire in self.wires for turn in wire.turns)
+
+    def walled(self, spans: Iterable[Turn]) -> tuple[Turn, ...]:
+        """What of these spans walls are to hold: nothing where a run is bent round another one beside it."""
+        return walled(spans, self.wires)
 
     @cached_property
     def chains(self) -> tuple[BezierChain, ...]:

@@ -18,6 +18,7 @@ from wrapit.geometry.arrays import runs
 from wrapit.geometry.polyline import evenly
 from wrapit.geometry.recurving import best_fit
 from wrapit.jig.openings.pins import pin_discs
+from wrapit.jig.paired.no_room import refuse_bent_further
 from wrapit.jig.walls_and_pins import StandingWalls, standing_walls
 from wrapit.jig.wrapping.let_go import Bends
 from wrapit.materials import METALS
@@ -29,7 +30,11 @@ NEAR_MM = 3e-3
 
 
 def overbend_wires(wires: Sequence[Wire], config: Config) -> tuple[tuple[Overbent, ...], tuple[Finding, ...]]:
-    """Each wire overbent by what its metal springs back, alone: overbent wires don't meet as drawn."""
+    """Each wire overbent by what its metal springs back, alone: overbent wires don't meet as drawn.
+
+    Raises JigError where a wire comes to lie beside itself.
+    """
+    refuse_bent_further(wires)
     loss = METALS[config.wire.metal].springback_per_mm(config.wire.gauge, config.wire.temper)
     bent = tuple(_overbent(wire, loss, config) for wire in wires)
     return bent, tuple(_finding(each) for each in bent)

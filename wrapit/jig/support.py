@@ -43,14 +43,13 @@ def _support(channels: Channels, walls: Sequence[Any], depth_mm: float) -> tuple
 
     tree = shapely.STRtree(list(walls))
     shares = []
-    for wire in channels.wires:
-        for turn in wire.turns:
-            probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, depth_mm))
-            hit = np.zeros(len(probes))
-            hit[inside(tree, probes)[0]] = 1.0
-            ends = np.ones(len(hit))
-            ends[[0, -1]] = 0.5
-            shares.append(TurnSupport(turn, float((hit * ends).sum() / ends.sum())))
+    for turn in channels.turns:
+        probes = shapely.points(face_probes(channels, turn, FACE_STEP_MM, depth_mm))
+        hit = np.zeros(len(probes))
+        hit[inside(tree, probes)[0]] = 1.0
+        ends = np.ones(len(hit))
+        ends[[0, -1]] = 0.5
+        shares.append(TurnSupport(turn, float((hit * ends).sum() / ends.sum())))
     return tuple(shares)
 
 

@@ -35,6 +35,7 @@ COMPOSED: dict[str, list[str]] = {
     "do-{}": [
         *(kind for kind in BENDS if kind != "wrap"),
         *(f"wrap-{around}" for around in get_args(Around)),
+        *(f"hairpin-{around}" for around in get_args(Around) if around != "run"),
         "by-hand-curve",
     ],
     "lead-to-{}": list(get_args(Around)),

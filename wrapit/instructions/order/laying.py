@@ -13,7 +13,7 @@ from wrapit.instructions.order.putting_together import put_together
 from wrapit.instructions.order.springing import springs_back
 from wrapit.instructions.order.wire_steps import MANY_TIES, Laid, wire_steps
 from wrapit.instructions.pictures import PRESENT, Scene, step_figure
-from wrapit.jig.bench.model import Bench
+from wrapit.jig.bench.model import NO_WALL, Bench
 from wrapit.jig.made import MIRRORED, file_stem
 from wrapit.jig.model import SameShape
 from wrapit.pages.model import Figure, Length, Shared, Text, listed, text
@@ -152,7 +152,7 @@ def _again(wire: Wire, like: Wire, form: SameShape, bench: Bench, scene: Scene) 
     whole = replace(
         Step("again", text("heading-again", wire=like.number), tuple(texts), wire=wire.number),
         end_mm=like.length_mm,
-        walls=tuple(sorted({contact.index for contact in bench.contacts[like.name]})),
+        walls=tuple(sorted({each.index for each in bench.contacts[like.name] if each.index != NO_WALL})),
     )
     return replace(whole, figure=step_figure(scene, whole, like, (), ()))
 

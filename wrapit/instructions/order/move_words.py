@@ -44,9 +44,13 @@ def turn_said(move: Move, by_hand: bool) -> Text:
     """One bend, curve or wrap as a sentence."""
     made: str = move.kind
     hole, rod = "", Thickness(0.0)
-    if move.contacts:
-        first = move.contacts[0]
-        made, hole, rod = f"wrap-{first.around}", first.label, Thickness(first.rod_mm)
+    # Back beside itself a wire is bent round what stands in its narrow loop, not round its own first run.
+    hairpin = move.kind == "hairpin"
+    contacts = [each for each in move.contacts if not hairpin or each.around != "run"]
+    if contacts:
+        first = contacts[0]
+        kind = "hairpin" if hairpin else "wrap"
+        made, hole, rod = f"{kind}-{first.around}", first.label, Thickness(first.rod_mm)
     elif move.kind == "curve" and (by_hand or abs(move.turn_rad) > LET_RUN_RAD):
         made = "by-hand-curve"
     return text(

@@ -19,9 +19,10 @@ from wrapit.instructions.order.swings import (
 )
 from wrapit.jig.bench.model import Contact
 from wrapit.jig.channel import SIDES
+from wrapit.jig.paired.hairpins import hairpins
 from wrapit.wires.model import Wire
 
-MoveKind = Literal["straight", "wrap", "bend", "curve", "fold", "loop", "spiral", "bail"]
+MoveKind = Literal["straight", "wrap", "bend", "curve", "fold", "loop", "spiral", "bail", "hairpin"]
 
 # From a fold on the wire lies back on itself; from a loop on it closes; from a spiral on it goes on round.
 FOLD_RAD, LOOP_RAD, SPIRAL_RAD = math.radians(155), math.radians(330), math.radians(405)
@@ -78,7 +79,7 @@ def moves_along(wire: Wire, contacts: Sequence[Contact]) -> tuple[Move, ...]:
         )
         reached = last
     moves += _free(line, reached, high)
-    moves = _settled(_one_sweep(moves))
+    moves = _turned_back(_settled(_one_sweep(moves)), wire)
     before = [_move(line, "bail", 0, low)] if low > 0 else []
     after = [_move(line, "bail", high, line.count)] if high < line.count else []
     return (*before, *moves, *after)
@@ -222,6 +223,20 @@ def _settled(moves: Sequence[Move]) -> list[Move]:
         last, before = settled.pop(), settled.pop()
         _settle(settled, _joined(before, last, before.kind))
     return settled
+
+
+def _turned_back(moves: Sequence[Move], wire: Wire) -> list[Move]:
+    """The same, with the bends in which the wire turns back to lie beside itself called so."""
+    middles = [(each.middle_mm, SIDES[each.side]) for each in hairpins(wire)]
+    return [
+        replace(move, kind="hairpin")
+        if any(
+            move.start_mm < at_mm < move.end_mm and sign * move.turn_rad >= FOLD_RAD
+            for at_mm, sign in middles
+        )
+        else move
+        for move in moves
+    ]
 
 
 def _settle(settled: list[Move], move: Move) -> None:

@@ -12,16 +12,26 @@ import numpy as np
 from wrapit.errors import Finding
 from wrapit.instructions.model import Crossing, Step, Tie
 from wrapit.instructions.order.bead_words import sewing_said, threading_said
+from wrapit.instructions.order.beside_words import beside_said
 from wrapit.instructions.order.move_words import bail_said, heading_of, lead_said, short_said, turn_said
 from wrapit.instructions.order.moves import Move, moves_along
 from wrapit.instructions.order.repeats import Stretch, stretches_of
 from wrapit.jig.bench.from_above import ONE_HOLE_MM
-from wrapit.jig.bench.model import Bench, Contact
+from wrapit.jig.bench.model import NO_WALL, Bench, Contact
 from wrapit.pages.model import Length, Span, Text, listed, text
 from wrapit.wires.model import Wire
 
 # What the hand does where the jig alone doesn't, by the finding: each has a text `caution-…`.
-BY_HAND: Final = ("strays", "hemmed", "weak-turn", "weak-stretch", "turn-without-wall", "loose-end", "no-peg")
+BY_HAND: Final = (
+    "strays",
+    "hemmed",
+    "weak-turn",
+    "weak-stretch",
+    "turn-without-wall",
+    "loose-end",
+    "no-peg",
+    "bead-between-runs",
+)
 # As on a compass with the picture's top as north.
 DIRECTIONS: Final = (
     "right", "upper-right", "up", "upper-left", "left", "lower-left", "down", "lower-right",
@@ -112,7 +122,7 @@ def _shape(laid: Laid, stretch: Stretch) -> Step:
     if stretch.times > 1:
         texts.append(text("repeat-times", times=stretch.times, moves=len(stretch.moves)))
     start, end = first.start_mm, stretch.moves[-1].end_mm
-    walls = [contact.index for move in stretch.moves for contact in move.contacts]
+    walls = [each.index for move in stretch.moves for each in move.contacts if each.index != NO_WALL]
     return _with_notes(
         laid,
         Step(
@@ -177,9 +187,12 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         for binding in wire.bindings
         if binding.junction in laid.ties and within(binding.at_mm)
     ]
-    threaded = threading_said(wire, within)
+    first = (
+        *threading_said(wire, within),
+        *beside_said(wire, laid.bench.wires if laid.bench is not None else (), within),
+    )
     notes = [*sewing_said(wire, within), *_crossing_notes(wire, crossings)]
-    if _along(wire, step, _second_runs(wire)):
+    if not wire.doubles and _along(wire, step, _second_runs(wire)):
         notes.append(text("note-doubled"))
     bridges = [run for run, traversal in enumerate(wire.traversals) if traversal.segment in laid.bridges]
     if _along(wire, step, bridges):
@@ -191,7 +204,7 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         notes.append(text("note-ties", places=places, count=len(met)))
     return replace(
         step,
-        texts=(*threaded, *step.texts, *notes),
+        texts=(*first, *step.texts, *notes),
         cautions=tuple(_cautions(laid.findings, within)),
         crossings=crossings,
         ties=tuple(dict.fromkeys(letter for letter, _ in met)),

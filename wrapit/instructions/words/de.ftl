@@ -250,6 +250,7 @@ heading-curve = Bogen nach { $side ->
    *[right] rechts
 }
 heading-fold = Zurückfalten
+heading-hairpin = Zurückbiegen
 heading-loop = Eine Schlaufe
 heading-spiral = Eine Spirale
 heading-bail = Die Öse zum Aufhängen
@@ -260,6 +261,10 @@ lead-to-wall = Geh { $length } gerade weiter bis zur Wand { $side ->
    *[right] rechts
 }.
 lead-to-pin = Geh { $length } gerade weiter bis zum Stift { $side ->
+    [left] links
+   *[right] rechts
+}.
+lead-to-run = Geh { $length } gerade weiter, dicht neben dem Lauf { $side ->
     [left] links
    *[right] rechts
 }.
@@ -275,6 +280,10 @@ do-wrap-pin = Wickle den Draht nach { $side ->
     [left] links
    *[right] rechts
 } um den Stift ({ $rod }), um etwa { $angle }°.
+do-wrap-run = Bieg ihn nach { $side ->
+    [left] links
+   *[right] rechts
+} um den Lauf, der dort liegt, dicht daneben, um etwa { $angle }°: { $length } Draht.
 do-wrap-peg = Wickle den Draht nach { $side ->
     [left] links
    *[right] rechts
@@ -295,6 +304,22 @@ do-fold = Falt ihn mit der Flachzange nach { $side ->
     [left] links
    *[right] rechts
 } zurück, etwa { $angle }°.
+do-hairpin = Bieg mit der Rundzange eine enge Schlaufe nach { $side ->
+    [left] links
+   *[right] rechts
+}, etwa { $angle }°, Radius { $radius }, sodass der Draht dicht neben sich selbst zurückkommt.
+do-hairpin-wall = Bieg eine enge Schlaufe nach { $side ->
+    [left] links
+   *[right] rechts
+} stramm um die Wand darin, etwa { $angle }°, sodass der Draht dicht neben sich selbst zurückkommt.
+do-hairpin-pin = Bieg eine enge Schlaufe nach { $side ->
+    [left] links
+   *[right] rechts
+} um den Stift darin ({ $rod }), etwa { $angle }°, sodass der Draht dicht neben sich selbst zurückkommt.
+do-hairpin-peg = Bieg eine enge Schlaufe nach { $side ->
+    [left] links
+   *[right] rechts
+} um den Stift in { $hole } ({ $rod }), etwa { $angle }°, sodass der Draht dicht neben sich selbst zurückkommt.
 do-loop = Mach eine Schlaufe nach { $side ->
     [left] links
    *[right] rechts
@@ -319,6 +344,22 @@ sew-bead = { $side ->
   } davon, bei { $at }, liegt die Perle von { $size }: wenn alle Drähte gebunden sind, binde sie dort mit ein paar Windungen Bindedraht an diesen.
 note-over = Er läuft über { $under } bei { $places }.
 note-doubled = Leg ihn dicht neben den Lauf, der dort schon liegt.
+note-beside = { $way ->
+    [back] Geh auf derselben Linie zurück
+    [again] Geh noch einmal dieselbe Linie entlang
+   *[other] Geh dieselbe Linie entlang wie Draht { $wire }
+}, { $side ->
+    [left] links
+   *[right] rechts
+} von ihr, dicht neben dem Lauf, der dort liegt: von { $start } bis { $end } auf dem Draht.
+note-leave-room = Lass von { $start } bis { $end } auf dem Draht { $side ->
+    [left] links
+   *[right] rechts
+} davon so viel Platz, wie der Draht dick ist: später { $way ->
+    [back] kommt er dort zurück, dicht neben sich selbst.
+    [again] geht er dort noch einmal entlang, dicht neben sich selbst.
+   *[other] kommt Draht { $wire } dort dicht daneben zu liegen.
+}
 note-bridge = Dieses Stück ist eine Brücke, die die Zeichnung nicht hat: sie hält das Ganze zusammen.
 tie-at = { $letter } ({ $at })
 note-many-ties = Unterwegs liegen { $count } Stellen zum späteren Binden.
@@ -335,6 +376,7 @@ caution-weak-turn = Bei { $places }: wenig Wand hält diese Biegung. Mach sie mi
 caution-weak-stretch = Bei { $places }: wenig Wand hält dieses Stück. Halt es von Hand gerade.
 caution-turn-without-wall = Bei { $places }: in diese Biegung passt keine Wand. Mach sie mit der Rundzange, bevor du sie legst.
 caution-loose-end = Bei { $places }: das Ende wird kaum gehalten. Halt es mit der Zange, bis es in sein Loch gebogen ist.
+caution-bead-between-runs = Bei { $places }: neben dem Draht der Perle liegt dicht ein anderer Lauf. Bieg diesen von Hand um die Perle.
 caution-no-peg = Bei { $places }: für diese Biegung steht kein Stift richtig. Mach sie von Hand über der Zeichnung.
 
 ## Einen Draht enden lassen

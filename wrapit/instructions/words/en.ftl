@@ -251,6 +251,7 @@ heading-curve = Curve to the { $side ->
    *[right] right
 }
 heading-fold = Fold back
+heading-hairpin = Turn back
 heading-loop = A loop
 heading-spiral = A spiral
 heading-bail = The loop to hang it from
@@ -261,6 +262,10 @@ lead-to-wall = Go straight on for { $length }, to the wall on the { $side ->
    *[right] right
 }.
 lead-to-pin = Go straight on for { $length }, to the pin on the { $side ->
+    [left] left
+   *[right] right
+}.
+lead-to-run = Go straight on for { $length }, close beside the run on the { $side ->
     [left] left
    *[right] right
 }.
@@ -276,6 +281,10 @@ do-wrap-pin = Wrap the wire to the { $side ->
     [left] left
    *[right] right
 } round the pin ({ $rod }), by about { $angle }°.
+do-wrap-run = Bend it to the { $side ->
+    [left] left
+   *[right] right
+} round the run that lies there, close beside it, by about { $angle }°: { $length } of wire.
 do-wrap-peg = Wrap the wire to the { $side ->
     [left] left
    *[right] right
@@ -296,6 +305,22 @@ do-fold = Fold it back to the { $side ->
     [left] left
    *[right] right
 }, about { $angle }°, with flat-nose pliers.
+do-hairpin = With round-nose pliers, bend a narrow loop to the { $side ->
+    [left] left
+   *[right] right
+}, about { $angle }°, radius { $radius }, so that the wire comes back close beside itself.
+do-hairpin-wall = Bend a narrow loop to the { $side ->
+    [left] left
+   *[right] right
+} round the wall in it, tight, about { $angle }°, so that the wire comes back close beside itself.
+do-hairpin-pin = Bend a narrow loop to the { $side ->
+    [left] left
+   *[right] right
+} round the pin in it ({ $rod }), about { $angle }°, so that the wire comes back close beside itself.
+do-hairpin-peg = Bend a narrow loop to the { $side ->
+    [left] left
+   *[right] right
+} round the peg in { $hole } ({ $rod }), about { $angle }°, so that the wire comes back close beside itself.
 do-loop = Make a loop to the { $side ->
     [left] left
    *[right] right
@@ -320,6 +345,22 @@ sew-bead = On the { $side ->
   }, at { $at }, lies the bead of { $size }: when all wires are tied, sew it to this one there with a few turns of binding wire.
 note-over = It passes over { $under } at { $places }.
 note-doubled = Lay it close beside the run that lies there already.
+note-beside = { $way ->
+    [back] Go back along the same line
+    [again] Go along the same line once more
+   *[other] Go along the same line as wire { $wire }
+}, on its { $side ->
+    [left] left
+   *[right] right
+}, close beside the run that lies there: from { $start } to { $end } on the wire.
+note-leave-room = From { $start } to { $end } on the wire, leave room as wide as the wire on its { $side ->
+    [left] left
+   *[right] right
+}: later { $way ->
+    [back] it comes back there, close beside itself.
+    [again] it comes along there once more, close beside itself.
+   *[other] wire { $wire } comes to lie there, close beside it.
+}
 note-bridge = This stretch is a bridge that the drawing doesn’t have: it holds the piece together.
 tie-at = { $letter } ({ $at })
 note-many-ties = On the way are { $count } places to tie later.
@@ -336,6 +377,7 @@ caution-weak-turn = At { $places }: little wall holds this bend. Make it with ro
 caution-weak-stretch = At { $places }: little wall holds this run. Keep it straight by hand.
 caution-turn-without-wall = At { $places }: no wall fits inside this bend. Make it with round-nose pliers before you lay it.
 caution-loose-end = At { $places }: the end is hardly held. Keep it in pliers until it is bent down into its hole.
+caution-bead-between-runs = At { $places }: another run lies close beside the bead’s wire. Bend that run round the bead by hand.
 caution-no-peg = At { $places }: no peg stands right for this bend. Make it by hand over the drawing.
 
 ## Ending a wire

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Final, Literal
 
 from wrapit.geometry import Region
 from wrapit.jig.model import SameShape
 from wrapit.wires.model import Side, Wire
 
-Around = Literal["wall", "pin", "peg"]
+Around = Literal["wall", "pin", "peg", "run"]
+# The index of what is no wall of the bench.
+NO_WALL: Final = -1
 
 
 @dataclass(frozen=True)
 class Contact:
     """A span of a wire, by arc length, that lies round something on one `side` of it.
 
-    `index` counts the bench's walls (pins and pegs are among them); `label` is a peg's hole, and `rod_mm`
-    the thickness of pin or peg.
+    `index` counts the bench's walls (pins and pegs are among them); a run that lies there has NO_WALL.
+    `label` is a peg's hole, and `rod_mm` the thickness of pin or peg.
     """
 
     start_mm: float

@@ -12,9 +12,10 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.geometry.arrays import runs
 from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.polygons import polygon_of
-from wrapit.jig.bench.model import Bench, Contact
+from wrapit.jig.bench.model import NO_WALL, Bench, Contact
 from wrapit.jig.channel import SIDES
 from wrapit.jig.model import Pin
+from wrapit.jig.paired.leaning import leaning
 from wrapit.wires.model import Wire
 
 # How often a wire is looked at, and how deep behind the place of a wall's face: the wall is there or isn't.
@@ -43,7 +44,10 @@ def bench_of(
         tuple(wires),
         standing,
         plate,
-        {wire.name: contacts(wire, walls, reach_mm, numbered) for wire in wires},
+        {
+            wire.name: in_order((*contacts(wire, walls, reach_mm, numbered), *round_runs(wire, wires)))
+            for wire in wires
+        },
         unmarked=frozenset(unmarked),
         seats_mm=tuple(seats_mm),
     )
@@ -75,7 +79,21 @@ def contacts(
         for index, pin in pins
         if pin.turn.wire == wire.name
     ]
+    return in_order(found)
+
+
+def in_order(found: Iterable[Contact]) -> tuple[Contact, ...]:
+    """Contacts in the order of the wire."""
     return tuple(sorted(found, key=lambda contact: (contact.start_mm, contact.end_mm)))
+
+
+def round_runs(wire: Wire, wires: Sequence[Wire]) -> tuple[Contact, ...]:
+    """Where a wire is bent round another run of these wires that lies there already."""
+    return tuple(
+        Contact(turn.start_mm, turn.end_mm, turn.inside, "run", NO_WALL)
+        for turn, run in leaning(wire, wires)
+        if not run.first and not turn.stretch
+    )
 
 
 def standing_pins(pins: Iterable[Pin]) -> tuple[Region, ...]:

@@ -9,6 +9,7 @@ from wrapit.config import JigConfig
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Pin
 from wrapit.jig.openings.room import PLATE_WEB_MM
+from wrapit.jig.paired.hairpins import is_hairpin
 from wrapit.jig.wall_ground import TOUCH_MM, face_probes
 from wrapit.wires.model import Turn
 
@@ -26,6 +27,8 @@ TOUCHING_MM = 0.02
 def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> tuple[Pin, ...]:
     """A pin in the middle of each turn that is narrower than the narrowest wall and that no wall holds.
 
+    In a hairpin also where a post would be wide enough but too small to print: its neck is closed.
+
     `walls` is what could be printed without pins: between legs that part, a wall's tip can be narrower
     than its foot, and then it holds the turn better than a pin.
 
@@ -37,18 +40,17 @@ def pin_holes(channels: Channels, config: JigConfig, holes: Any, walls: Any) -> 
         return ()
     pins: list[Pin] = []
     taken = holes
-    for wire in channels.wires:
-        for turn in wire.turns:
-            pin = _pin(channels, turn, config)
-            if pin is None or _held(channels, turn, walls) >= HELD:
-                continue
-            disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
-            if _in_the_way(channels, turn, disc.buffer(-TOUCHING_MM)) or taken.intersects(
-                disc.buffer(PLATE_WEB_MM)
-            ):
-                continue
-            pins.append(pin)
-            taken = taken.union(disc)
+    for turn in channels.turns:
+        pin = _pin(channels, turn, config)
+        if pin is None or _held(channels, turn, walls) >= HELD:
+            continue
+        disc = shapely.Point(pin.centre).buffer(pin.diameter_mm / 2)
+        if _in_the_way(channels, turn, disc.buffer(-TOUCHING_MM)) or taken.intersects(
+            disc.buffer(PLATE_WEB_MM)
+        ):
+            continue
+        pins.append(pin)
+        taken = taken.union(disc)
     return tuple(pins)
 
 
@@ -96,7 +98,9 @@ def _pin(channels: Channels, turn: Turn, config: JigConfig) -> Pin | None:
         return None
     room = 2 * (1 / bend - channels.face_mm)
     diameter = math.floor(room / PIN_STEP_MM + 1e-6) * PIN_STEP_MM
-    if room >= config.min_wall_width or diameter < SMALLEST_PIN_MM - 1e-9:
+    hairpin = is_hairpin(turn, channels.wires[channels.index[turn.wire]])
+    small = hairpin and math.pi / 4 * room**2 < config.min_wall_area
+    if (room >= config.min_wall_width and not small) or diameter < SMALLEST_PIN_MM - 1e-9:
         return None
     centre = points[tightest] + side / bend * normals[tightest]
     return Pin(turn, (float(centre[0]), float(centre[1])), round(diameter, 6))

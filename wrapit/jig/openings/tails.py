@@ -80,9 +80,8 @@ def _faces(channels: Channels) -> tuple[Any, Any]:
     import shapely
 
     kinds: tuple[list[FloatArray], list[FloatArray]] = ([np.empty((0, 2))], [np.empty((0, 2))])
-    for wire in channels.wires:
-        for turn in wire.turns:
-            kinds[turn.stretch].append(face_probes(channels, turn, FACE_STEP_MM, TOUCH_MM))
+    for turn in channels.turns:
+        kinds[turn.stretch].append(face_probes(channels, turn, FACE_STEP_MM, TOUCH_MM))
     shapely.prepare(channels.area)
     points = [shapely.points(np.concatenate(kind)) for kind in kinds]
     turns, stretches = (each[~shapely.contains(channels.area, each)] for each in points)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -15,9 +15,10 @@ from wrapit.jig.channel import CHANNEL_PAD_MM, Channels
 from wrapit.jig.findings import free_finding, split_finding
 from wrapit.jig.model import Hold, SameShape
 from wrapit.jig.openings.holes import hole_obstacles, start_holes
+from wrapit.jig.paired.leaning import walled
 from wrapit.jig.parting.same_shape import same_shapes
 from wrapit.jig.wall_ground import ROUGH_STEP_MM, TOUCH_MM, face_probes
-from wrapit.wires.model import Wire
+from wrapit.wires.model import Turn, Wire
 
 # What the jig of all wires is called; several are called after theirs.
 ONE_JIG = "jig"
@@ -194,18 +195,27 @@ def support_losses(wires: Sequence[Wire], config: JigConfig) -> FloatArray:
     for shape in (*reaches, *tails):
         shapely.prepare(shape)
     for i, channels in enumerate(apart):
-        turns = [turn for turn in channels.wires[0].turns if not turn.stretch]
+        turns = [turn for turn in channels.turns if not turn.stretch]
         if not turns:
             continue
-        face, inside = (
-            shapely.points(
-                np.concatenate([face_probes(channels, turn, ROUGH_STEP_MM, depth) for turn in turns])
-            )
-            for depth in (TOUCH_MM, half)
-        )
-        free = ~shapely.contains(channels.area, inside)
+        face, inside = _probes(channels, turns, half)
         for j in range(len(wires)):
             if i != j:
-                lost = shapely.contains(reaches[j], inside) | shapely.contains(tails[j], face)
+                # What leans on the other needs no wall beside it.
+                walls = walled(turns, (wires[i], wires[j]))
+                near, deep = (face, inside) if walls == tuple(turns) else _probes(channels, walls, half)
+                lost = shapely.contains(reaches[j], deep) | shapely.contains(tails[j], near)
+                free = ~shapely.contains(channels.area, deep)
                 losses[i, j] = float((lost & free).sum()) / len(face)
     return losses
+
+
+def _probes(channels: Channels, turns: Sequence[Turn], half_mm: float) -> tuple[Any, Any]:
+    """Points (shapely, (m,) each) at the faces of walls along these turns, and half a wall deeper."""
+    import shapely
+
+    face, inside = (
+        [face_probes(channels, turn, ROUGH_STEP_MM, depth) for turn in turns] for depth in (TOUCH_MM, half_mm)
+    )
+    none = np.empty((0, 2))
+    return shapely.points(np.concatenate([none, *face])), shapely.points(np.concatenate([none, *inside]))

@@ -59,7 +59,7 @@ def place_pegs(channels: Channels, config: PegsConfig) -> PegPlan:
     high = np.vstack([chain.points.reshape(-1, 2).max(axis=0) for chain in channels.chains]).max(axis=0)
     lines = shapely.union_all([shapely.LineString(chain.sampled(0.05)) for chain in channels.chains])
     beads = bead_obstacles(channels.wires, channels.clearance_mm)
-    turns = [_inside(channels, turn) for wire in channels.wires for turn in wire.turns if not turn.stretch]
+    turns = [_inside(channels, turn) for turn in channels.turns if not turn.stretch]
     best: tuple[float, list[list[_Choice]], Board] | None = None
     for board in _boards(low, high, config):
         choices = _choices(board, turns, (lines, beads), channels.diameter_mm / 2, config)

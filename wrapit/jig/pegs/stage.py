@@ -11,6 +11,7 @@ from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Region
 from wrapit.geometry.outlines.loops import circle, rounded_rectangle
 from wrapit.jig.bench.model import Bench, Contact, Handling
+from wrapit.jig.bench.touching import in_order, round_runs
 from wrapit.jig.channel import Channels
 from wrapit.jig.made import JigMaker, Made, View, Wires, reported
 from wrapit.jig.pegs.board_page import peg_page
@@ -48,7 +49,7 @@ def held(wires: Wires, config: Config) -> float:
 def _bench(plan: PegPlan, wires: Wires) -> Bench:
     """The board with its pegs, and the turns that each wire makes round them."""
     board = plan.board
-    round_pegs: dict[str, list[Contact]] = {wire.name: [] for wire in wires}
+    round_pegs = {wire.name: [*round_runs(wire, wires)] for wire in wires}
     for index, peg in enumerate(plan.pegs):
         name = hole_name(peg.cell)
         for turn, _ in peg.turns:
@@ -59,7 +60,7 @@ def _bench(plan: PegPlan, wires: Wires) -> Bench:
         wires,
         tuple(Region(circle(board.place(peg.cell), peg.diameter_mm / 2)) for peg in plan.pegs),
         Region(rounded_rectangle(*board.corners, 3.0)),
-        {name: tuple(sorted(found, key=lambda each: each.start_mm)) for name, found in round_pegs.items()},
+        {name: in_order(found) for name, found in round_pegs.items()},
         anchored=False,
     )
 

@@ -12,6 +12,7 @@ from wrapit.geometry.outlines.polygons import CORNER_RAD
 from wrapit.jig.channel import Channels
 from wrapit.jig.contours import arrow_head
 from wrapit.jig.model import Groove
+from wrapit.jig.paired.between import second_runs
 from wrapit.jig.printed.smoothed import ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM, bends_rad, smoothed
 
 # A line that a nozzle of 0.4 mm leaves open, two layers of 0.2 mm deep, as numbers are. Wire lies over it and
@@ -49,7 +50,7 @@ def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     free = shapely.union_all([walls.buffer(web), kept_free.buffer(WEB_MM)])
     heads = [_head(channels, index, free) for index in range(len(channels.wires))]
     beside = walls.buffer(channels.reach_mm + BESIDE_MM)
-    lines = [line.difference(beside).buffer(width / 2, cap_style="flat") for line in channels.lines]
+    lines = [line.difference(beside).buffer(width / 2, cap_style="flat") for line in _marked(channels)]
     marked = shapely.union_all([*lines, *(head for head in heads if head is not None)])
     whole = marked.buffer(WEB_MM / 2).buffer(-WEB_MM / 2, join_style="mitre", mitre_limit=BLUNT)
     whole = whole.difference(free)
@@ -64,6 +65,19 @@ def groove_of(channels: Channels, walls: Any, kept_free: Any, most_depth_mm: flo
     room = shapely.box(*whole.buffer(1.0).bounds).difference(shapely.union_all([walls, kept_free]))
     strokes = tuple(smoothed(part, room, ENGRAVED_FIT_MM, ENGRAVED_SLACK_MM) for part in parts)
     return Groove(strokes, min(DEPTH_MM, most_depth_mm))
+
+
+def _marked(channels: Channels) -> list[Any]:
+    """The lines (shapely) that have a groove: of two runs side by side only the one that is laid first.
+
+    Between two grooves there would be a web thinner than the nozzle's line; beside one the other lies flat.
+    """
+    return [
+        line if second is None else line.difference(second.buffer(LEAST_WIDTH_MM, cap_style="flat"))
+        for line, second in zip(
+            channels.lines, (second_runs(channels, wire) for wire in channels.wires), strict=True
+        )
+    ]
 
 
 def _apart(parts: list[shapely.Polygon]) -> list[shapely.Polygon]:

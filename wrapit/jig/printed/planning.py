@@ -10,6 +10,7 @@ from wrapit.geometry import Region
 from wrapit.jig.channel import Channels
 from wrapit.jig.findings import form_findings, stray_findings, support_findings, unheld_findings
 from wrapit.jig.model import Hold, JigPlan, SameShape, TurnSupport
+from wrapit.jig.paired.no_room import bead_findings
 from wrapit.jig.parting.grouping import parted
 from wrapit.jig.printed.plan import plan_jig, walls_of
 from wrapit.jig.printed.seats import check_seats, seats_near
@@ -85,7 +86,7 @@ def plan_jigs(wires: tuple[Wire, ...], config: JigConfig) -> tuple[PlannedJigs, 
         return _planned(group, seats_near(group, others, config) if others else config, name)
 
     parting = parted(wires, config, plan)
-    findings = [*parting.findings, *form_findings(parting.forms)]
+    findings = [*bead_findings(wires), *parting.findings, *form_findings(parting.forms)]
     for jig in parting.jigs:
         laid = jig.plan.laid
         findings += [*jig.findings, *plain_finding(jig.faces, jig.plan.name), *stray_findings(laid)]

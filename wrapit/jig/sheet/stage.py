@@ -17,6 +17,7 @@ from wrapit.jig.findings import form_findings, stray_findings
 from wrapit.jig.model import Course, Hold, Hole, Pin, SameShape, TurnSupport, Wall, straying
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
+from wrapit.jig.paired.no_room import bead_findings
 from wrapit.jig.parting.grouping import parted
 from wrapit.jig.sheet.checks import LEAST_WEB_MM, THIN_WEB_MM, check_sheets
 from wrapit.jig.sheet.handles import FRONT_MM, joined, small_pieces, with_handles
@@ -30,7 +31,7 @@ from wrapit.jig.walls_and_pins import standing_walls
 from wrapit.jig.wrapping.hemmed import hemmed_findings
 from wrapit.jig.wrapping.needs import planned_walls
 from wrapit.jig.wrapping.passage import passage
-from wrapit.wires.model import Wire
+from wrapit.wires.model import Turn, Wire
 
 # Sheet between a start hole and the pocket beside it, in the finished plate: the narrowest web of most pieces
 # (leaf: 1.20 mm; with 0.84 it is 0.84, and the butterfly's walls have 1 % more area).
@@ -68,7 +69,7 @@ def plan_stacks(
         raise JigError("there are no wires to make a jig for")
     parting = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
     plans: dict[str, LaserPlan] = {}
-    findings = [*parting.findings, *form_findings(parting.forms)]
+    findings = [*bead_findings(wires), *parting.findings, *form_findings(parting.forms)]
     for group in parting.jigs:
         plans[group.name], more = plan_stack(group.wires, jig_config, config)
         findings += more
@@ -179,7 +180,7 @@ def plan_stack(
     )
     walls = tuple(face.region for face in faces)
     held = really_held(turn_support(channels, walls), pins, planned.laid)
-    loose = [finding for wire in wires if (finding := _unheld(wire, held)) is not None]
+    loose = [finding for wire in wires if (finding := _unheld(wire, channels.turns, held)) is not None]
     plan = LaserPlan(wires, walls, holes, pins, held, planned.laid)
     wrapping = [*stray_findings(planned.laid), *hemmed_findings(channels, handy)]
     here = [dataclasses.replace(each, where=f"laser-cut jig, {each.where}") for each in wrapping]
@@ -204,8 +205,9 @@ def kept_apart(polygons: Sequence[Any], least_mm: float) -> list[Any]:
     return kept
 
 
-def _unheld(wire: Wire, held: Iterable[TurnSupport]) -> Finding | None:
-    loose = [one.turn for one in held if one.turn in wire.turns and one.share == 0]
+def _unheld(wire: Wire, turns: Iterable[Turn], held: Iterable[TurnSupport]) -> Finding | None:
+    mine = [turn for turn in turns if turn.wire == wire.name]
+    loose = [one.turn for one in held if one.turn in mine and one.share == 0]
     if not loose:
         return None
     places = tuple((turn.start_mm + turn.end_mm) / 2 for turn in loose)
@@ -213,7 +215,7 @@ def _unheld(wire: Wire, held: Iterable[TurnSupport]) -> Finding | None:
         "warning",
         "turn-without-wall",
         f"{wire.name} at {', '.join(f'{at_mm:.0f}' for at_mm in places)} mm",
-        f"{len(loose)} of {len(wire.turns)} turns and stretches leave no room for a wall cut from sheet",
+        f"{len(loose)} of {len(mine)} turns and stretches leave no room for a wall cut from sheet",
         "bend there by hand, make the piece larger, or print the jig",
         wire=wire.name,
         places_mm=places,

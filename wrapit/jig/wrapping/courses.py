@@ -10,6 +10,7 @@ from wrapit.geometry import FloatArray
 from wrapit.geometry.arclength import ArcLength
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course
+from wrapit.jig.paired.between import metal_between
 from wrapit.jig.taut.deviation import deviations
 from wrapit.jig.taut.shortest import FreeGround
 from wrapit.wires.model import Wire
@@ -26,15 +27,20 @@ def courses(channels: Channels, walls: Iterable[Any]) -> tuple[Course, ...]:
     """The course of each wire round these walls (shapely polygons), in the order of the wires.
 
     The shortest path that goes round the walls the same way as the drawn wire. Its ends are held in their
-    holes, those of a wire that closes too; wires don't hinder one another, as they lie in layers.
+    holes, those of a wire that closes too; wires don't hinder one another, as they lie in layers. But two
+    runs side by side do: none passes the other.
     """
     places = [_places(wire) for wire in channels.wires]
     obstacles = grown(walls, channels.diameter_mm)
-    ground = FreeGround.around(obstacles, [points for _, points in places])
-    return tuple(
-        _course(wire.name, ground.pulled(points), at_mm, points)
-        for wire, (at_mm, points) in zip(channels.wires, places, strict=True)
-    )
+    between = [metal_between(channels, index) for index in range(len(places))]
+    alone = [points for (_, points), metal in zip(places, between, strict=True) if metal is None]
+    ground = FreeGround.around(obstacles, alone) if alone else None
+    laid = []
+    for wire, (at_mm, points), metal in zip(channels.wires, places, between, strict=True):
+        mine = ground if metal is None else FreeGround.around(obstacles.union(metal), [points])
+        assert mine is not None, "whoever has nothing beside it lies on the common ground"
+        laid.append(_course(wire.name, mine.pulled(points), at_mm, points))
+    return tuple(laid)
 
 
 def grown(walls: Iterable[Any], diameter_mm: float) -> Any:

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from wrapit.jig.channel import SIDES, Channels
+from wrapit.jig.paired.leaning import beside_mm
 from wrapit.jig.wrapping.passage import beside
 from wrapit.wires.model import Side, Turn, Wire
 
@@ -28,16 +29,17 @@ def free_sides(channels: Channels, held: Iterable[Turn], room_mm: float) -> Any:
         _band(channels, Turn(wire.name, start, end, side, 0.0), room_mm)
         for wire in channels.wires
         for side in sides
-        for start, end in _loose(wire, side, spans)
+        for start, end in _loose(wire, side, spans, beside_mm(wire, channels.wires, side))
     ]
     return shapely.union_all(bands)
 
 
-def _loose(wire: Wire, side: Side, held: Iterable[Turn]) -> list[tuple[float, float]]:
-    """Where nothing is held on a side of a wire, from mm to mm."""
-    taken = sorted(
-        (span.start_mm, span.end_mm) for span in held if span.wire == wire.name and span.inside == side
-    )
+def _loose(
+    wire: Wire, side: Side, held: Iterable[Turn], others: Iterable[tuple[float, float]]
+) -> list[tuple[float, float]]:
+    """Where nothing is held on a side of a wire, and no other run lies there, from mm to mm."""
+    walls = ((span.start_mm, span.end_mm) for span in held if (span.wire, span.inside) == (wire.name, side))
+    taken = sorted([*walls, *others])
     loose, at_mm = [], 0.0
     for start, end in [*taken, (wire.length_mm, wire.length_mm)]:
         low = at_mm + APART_MM if at_mm > 0 else 0.0

@@ -7,7 +7,7 @@ the side it strays to, and so on until it lies as drawn.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from wrapit.errors import Finding
 from wrapit.geometry.arrays import runs
 from wrapit.jig.channel import Channels
 from wrapit.jig.model import Course
+from wrapit.jig.paired.between import carried
 from wrapit.jig.wall_ground import wall_polygons
 from wrapit.jig.wrapping.courses import courses
 from wrapit.jig.wrapping.free_sides import free_sides
@@ -36,6 +37,8 @@ STRAIGHT_RAD = 0.03
 ALIKE_MM = 0.02
 # Walls on one side of a wire with less between them are one: as a multiple of the narrowest wall.
 JOINED = 3.0
+# What walls may hold of spans (`Channels.walled`).
+_Walled = Callable[[Iterable[Turn]], tuple[Turn, ...]]
 # Rounds of adding walls, after which what strays is reported as it is.
 ROUNDS = 60
 
@@ -62,21 +65,25 @@ def planned_walls(
     No wall stands on the `obstacles` (shapely).
     """
     if config.support == "taut":
-        return _needed(channels, config, obstacles, pins)
-    held = tuple(turn for wire in channels.wires for turn in wire.turns)
-    return _standing(channels, config, obstacles, pins, held)
+        walls = _needed(channels, config, obstacles, pins)
+    else:
+        walls = _standing(channels, config, obstacles, pins, channels.turns)
+    return replace(walls, laid=carried(channels, walls.laid))
 
 
 def _needed(channels: Channels, config: JigConfig, obstacles: Any, pins: Sequence[Any]) -> NeededWalls:
     """As little wall as keeps each taut wire within `taut_tolerance` of the drawing, where there is room."""
     apart_mm = JOINED * config.min_wall_width
-    held = _joined((turn for wire in channels.wires for turn in wire.turns), apart_mm)
+    walled = channels.walled
+    held = walled(_joined(channels.turns, apart_mm))
     for _ in range(ROUNDS):
         walls = _standing(channels, config, obstacles, pins, held)
-        more = [piece for course in walls.laid for piece in _more(course, config.taut_tolerance, held)]
+        more = [
+            piece for course in walls.laid for piece in _more(course, config.taut_tolerance, held, walled)
+        ]
         if not more:
             break
-        held = _joined([*held, *more], apart_mm)
+        held = walled(_joined([*held, *more], apart_mm))
     return walls
 
 
@@ -90,7 +97,7 @@ def _standing(
     return NeededWalls(tuple(polygons), dropped, held, free, laid)
 
 
-def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
+def _more(course: Course, tolerance_mm: float, held: Sequence[Turn], walled: _Walled) -> Iterator[Turn]:
     """Pieces of wall for each stretch that strays: where it strays furthest, and at others where it does far.
 
     A place that has a wall already gets the next longer one, and at last none.
@@ -104,7 +111,7 @@ def _more(course: Course, tolerance_mm: float, held: Sequence[Turn]) -> Iterator
             at_mm = _middle(course, int(furthest))
             if all(abs(at_mm - other) >= APART_MM for other in chosen):
                 chosen.append(at_mm)
-                yield from _piece(course, at_mm, held)
+                yield from _piece(course, at_mm, held, walled)
 
 
 def _middle(course: Course, place: int) -> float:
@@ -116,15 +123,16 @@ def _middle(course: Course, place: int) -> float:
     return float(np.average(course.at_mm[alike], weights=over_mm[alike]))
 
 
-def _piece(course: Course, at_mm: float, held: Sequence[Turn]) -> Iterator[Turn]:
-    """The shortest piece of wall at a place that isn't planned yet, if there is one."""
+def _piece(course: Course, at_mm: float, held: Sequence[Turn], walled: _Walled) -> Iterator[Turn]:
+    """The shortest piece of wall at a place that isn't planned yet, if there is one: less what leans."""
     end_mm, place = float(course.at_mm[-1]), int(np.abs(course.at_mm - at_mm).argmin())
     side = _side(course, place)
     for length_mm in PIECES_MM:
         low, high = max(0.0, at_mm - length_mm / 2), min(end_mm, at_mm + length_mm / 2)
         piece = Turn(course.wire, low, high, side, 0.0, stretch=True)
-        if not _planned(piece, held):
-            yield piece
+        fresh = [each for each in walled([piece]) if not _planned(each, held)]
+        if fresh:
+            yield from fresh
             return
 
 
