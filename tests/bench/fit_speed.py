@@ -2,7 +2,7 @@
 
 Run as `python -m tests.bench fit_speed [numbers]`: two crayfish side by side (130 segments, 75 mm), generated
 nets (150, 200 and 300 segments, or those named) at 60 and 150 mm with 18 AWG and `fit: bold`, and public
-clipart (a folder named in $WRAPIT_CLIPART) at 40 and 50 mm. The first runs twice, as what is loaded late counts
+clipart (a folder named in $WRAPIT_CLIPART) at 40 and 50 mm. The first runs twice: what is loaded late counts
 at first. CPU time of all threads, of `make_fit` alone.
 """
 

@@ -24,7 +24,7 @@ from wrapit.geometry import Arc, BezierChain, FloatArray, joined, straight
 from wrapit.geometry.bezier import derivative, evaluate, second_derivative
 from wrapit.geometry.bounded import Bounded, Bounding, bounded
 from wrapit.geometry.outlines.loops import as_chain
-from wrapit.geometry.steering.tight import Tight
+from wrapit.geometry.steering.tight import Tight, tight_places, tight_places_of
 from wrapit.geometry.steering.windows import MOST, Windows
 
 MANY = np.linspace(0, 1, 101)
@@ -143,6 +143,12 @@ def test_one_way_after_another_is_each_by_itself(curve: BezierChain, radius: flo
         if one is not None and other is not None:
             assert np.array_equal(one.curve.points, other.curve.points)
             assert (one.deviation, one.spans) == (other.deviation, other.spans)
+
+
+@settings(max_examples=30)
+@given(st.lists(st.one_of(chains, rings()), max_size=4), st.floats(0.3, 2), st.booleans())
+def test_tight_places_are_the_same_one_by_one(curves: list, radius: float, closed: bool) -> None:
+    assert tight_places_of(curves, radius, closed) == [tight_places(each, radius, closed) for each in curves]
 
 
 @settings(max_examples=60)

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from wrapit.drawing.model import Removal
-from wrapit.fit.faces import Faces, faces_of
+from wrapit.fit.faces import Faces
 from wrapit.fit.measuring import fewest_wires
 from wrapit.fit.merging.merged import merged, quoted
 from wrapit.fit.mirrored import mirror_of
@@ -39,12 +39,12 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
     helped stays as it is.
     """
     sketch = sketch.simplified(limits.shortest_mm)
-    sketch = zipped(sketch, limits, worths(sketch, faces_of(sketch), limits), keep)
+    sketch = zipped(sketch, limits, worths(sketch, sketch.faces, limits), keep)
     sketch = _tidied(sketch.simplified(), limits, keep)
     refused: set[int] = set()
     for turn in range(_ROUNDS):
         sketch = sketch.simplified()
-        faces = faces_of(sketch)
+        faces = sketch.faces
         if not short_lines(sketch, limits) and not small_faces(sketch, faces, limits):
             break
         pairs = mirror_of(sketch).pairs

@@ -32,7 +32,8 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     loose end may move. An end is held less firmly where the line stays much nearer to the drawing so. A line
     that can't be widened without crossing another stays.
     """
-    tight = [n for n, line in sketch.lines.items() if tight_bends(line.curve, limits.radius_mm)]
+    bends = tight_bends([line.curve for line in sketch.lines.values()], limits.radius_mm)
+    tight = [n for n, count in zip(sketch.lines, bends, strict=True) if count]
     tight.sort(key=lambda n: (-round(sketch.lines[n].curve.length, 3), n))  # however they are numbered
     ways = {n: _ways(sketch, n, limits) for n in tight}  # of the sketch as it is now
     for n in tight:

@@ -39,7 +39,7 @@ def is_planar(sketch: Sketch, lines: Mapping[int, Line], before: Sketch) -> bool
 
     What crossed before may cross still: not every drawing that is read is planar to the last micron.
     """
-    return not crossed(sketch.lines, sketch.nodes, lines, before)
+    return not crossed(sketch.lines, sketch.nodes, lines, before, _NODE_MM)
 
 
 def crossed(
@@ -47,8 +47,12 @@ def crossed(
     nodes: Mapping[int, FloatArray],
     new: Mapping[int, Shaped],
     before: Sketch,
+    near_mm: float,
 ) -> bool:
-    """Whether one of the `new` lines crosses itself, or another but at their nodes, that did not before."""
+    """Whether one of the `new` lines crosses itself, or another farther than that from their nodes.
+
+    But for those that did before.
+    """
     import shapely
 
     numbers, tree = before.places
@@ -62,18 +66,20 @@ def crossed(
         shapely.prepare(line.shape)
         meet = shapely.intersects(line.shape, [lines[other].shape for other in others])
         for other in np.array(others)[meet].tolist():
-            if _meet_elsewhere(line, lines[other], nodes) and not _met_before(before, number, other):
+            if _meet_elsewhere(line, lines[other], nodes, near_mm) and not _met_before(before, number, other):
                 return True
     return False
 
 
 def _met_before(before: Sketch, one: int, other: int) -> bool:
     lines = before.lines
-    return one in lines and other in lines and _meet_elsewhere(lines[one], lines[other], before.nodes)
+    return (
+        one in lines and other in lines and _meet_elsewhere(lines[one], lines[other], before.nodes, _NODE_MM)
+    )
 
 
-def _meet_elsewhere(first: Shaped, second: Shaped, nodes: Mapping[int, FloatArray]) -> bool:
-    """Whether two lines have a place in common that isn't at a node of both."""
+def _meet_elsewhere(first: Shaped, second: Shaped, nodes: Mapping[int, FloatArray], near_mm: float) -> bool:
+    """Whether two lines have a place in common that isn't near to a node of both."""
     import shapely
 
     both = shapely.intersection(first.shape, second.shape)
@@ -83,6 +89,5 @@ def _meet_elsewhere(first: Shaped, second: Shaped, nodes: Mapping[int, FloatArra
     # A part with all its corners near to a node is near to it.
     parts = (shapely.get_coordinates(part).tolist() for part in shapely.get_parts(both))
     return not all(
-        any(all(math.dist(corner, place) <= _NODE_MM for corner in part) for place in places)
-        for part in parts
+        any(all(math.dist(corner, place) <= near_mm for corner in part) for place in places) for part in parts
     )

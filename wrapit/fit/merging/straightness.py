@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
-import numpy as np
-
 from wrapit.fit.sketch import Arm, Sketch
+from wrapit.geometry import FloatArray
 
 # A line goes straight on into another where it turns by less than this (rad): as crossings are told apart.
 _STRAIGHT: Final = math.radians(40)
@@ -24,7 +23,12 @@ def straight_on(sketch: Sketch, arm: Arm) -> Arm | None:
 
 
 def straightest(sketch: Sketch, arm: Arm, others: list[Arm]) -> Arm | None:
-    own = sketch.heading(arm)
-    turns = [(math.acos(float(np.clip(-own @ sketch.heading(o), -1, 1))), o) for o in others]
+    turns = [(_turn_rad(sketch.heading(arm), sketch.heading(other)), other) for other in others]
     turns = [each for each in turns if each[0] < _STRAIGHT]
     return min(turns)[1] if turns else None
+
+
+def _turn_rad(one: FloatArray, other: FloatArray) -> float:
+    """Between the way in along one direction and the way out along the other, in plain numbers."""
+    (x, y), (other_x, other_y) = one.tolist(), other.tolist()
+    return math.acos(max(-1.0, min(1.0, -(x * other_x + y * other_y))))
