@@ -1,8 +1,9 @@
 """How long making a drawing fit takes, by its number of segments.
 
-Run as `python -m tests.bench fit_speed [numbers]`: generated nets (150, 200 and 300 segments, or those named)
-at 60 and 150 mm with 18 AWG and `fit: bold`, and public clipart (a folder named in $WRAPIT_CLIPART) at 40 and
-50 mm. CPU time of all threads, of `make_fit` alone.
+Run as `python -m tests.bench fit_speed [numbers]`: two crayfish side by side (130 segments, 75 mm), generated
+nets (150, 200 and 300 segments, or those named) at 60 and 150 mm with 18 AWG and `fit: bold`, and public
+clipart (a folder named in $WRAPIT_CLIPART) at 40 and 50 mm. The first runs twice: what is loaded late counts
+at first. CPU time of all threads, of `make_fit` alone.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from wrapit.fit.stage import make_fit
 NETS = ("cells", "triangles", "grid", "spiral")
 NET_SIZES_MM, CLIPART_SIZES_MM = (60, 150), (40, 50)
 NUMBERS = ("150", "200", "300")
+CONFIGS = Path(__file__).parents[2] / "configs"
 # Clipart is grouped by so many segments.
 GROUP = 20
 
@@ -32,7 +34,9 @@ def main(words: Sequence[str]) -> None:
     """A line for each drawing, and a table of medians and the slowest."""
     seconds: dict[str, list[float]] = {}
     with TemporaryDirectory() as folder:
-        for group, config in (*_clipart(), *_nets(Path(folder), words or NUMBERS)):
+        crayfish = _two_crayfish(Path(folder))
+        rows = (crayfish, crayfish, *_clipart(), *_nets(Path(folder), words or NUMBERS))
+        for group, config in rows:
             try:
                 drawing, _ = trace(Path(config.drawing), config.tracing, config.size)
             except WrapItError as error:
@@ -52,6 +56,18 @@ def main(words: Sequence[str]) -> None:
     print(f"\n{'':32s}    n  median  slowest")
     for name, each in sorted(seconds.items()):
         print(f"{name:32s} {len(each):4d} {median(each):7.2f} {max(each):8.2f} s")
+
+
+def _two_crayfish(folder: Path) -> tuple[str, Config]:
+    """The crayfish twice, 100 of its 120 mm apart: claws cross, so that it is one piece."""
+    drawing = (CONFIGS / "crayfish.svg").read_text()
+    strokes = drawing[drawing.index("<g ") : drawing.index("</svg>")]
+    path = folder / "two-crayfish.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="220mm" height="164mm" viewBox="0 0 220 164">'
+        f'{strokes}<g transform="translate(100 0)">{strokes}</g></svg>'
+    )
+    return "two crayfish", _config(path, 75, {})
 
 
 def _clipart() -> Iterator[tuple[str, Config]]:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from tests.bench.fit_judge import fitness
 from tests.fit.drawn import drawn
-from wrapit.fit.merging import merged
+from wrapit.fit.merging.merged import merged, quoted
 from wrapit.fit.sketch import Sketch
 
 
@@ -36,3 +36,18 @@ def test_the_ends_of_a_short_line_become_one_node(kind: str, seed: int) -> None:
         assert seen.crossings <= was.crossings
         touched = {arm[0] for node in (line.start, line.end) for arm in sketch.arms[node]}
         assert all(after.lines[m] is sketch.lines[m] for m in after.lines if m not in touched)
+
+
+def test_a_quote_is_what_the_merger_costs() -> None:
+    agreed = []
+    for kind in ("net", "ladder", "grate", "scribble", "leaf", "double"):
+        for seed in range(12):
+            sketch = Sketch.of(drawn(kind, seed, 40.0)).simplified()
+            for n in sorted(sketch.lines, key=lambda n: sketch.lines[n].curve.length)[:5]:
+                quote, merger = quoted(sketch, n, 1.0), merged(sketch, n, 1.0)
+                # Curves are within 0.02 mm of the points: rarely do only they cross, or only the points.
+                agreed.append((quote is None) == (merger is None))
+                if quote is not None and merger is not None:
+                    assert quote.moved == merger.moved
+                    assert quote.lost == merger.lost
+    assert sum(agreed) > 0.97 * len(agreed)

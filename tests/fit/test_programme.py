@@ -14,7 +14,7 @@ from wrapit.fit.limits import limits_of
 from wrapit.fit.mirrored import mirror_of
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import Task, Weights, choose
-from wrapit.fit.sketch import Sketch, heading
+from wrapit.fit.sketch import STEP_MM, Sketch, heading
 from wrapit.fit.worth import worths
 
 LEVELS = {"gentle": Weights(1.0, few=6, more_mm=0.0), "bold": Weights(6.0, few=2, more_mm=8.0)}
@@ -26,8 +26,8 @@ def directions(sketch: Sketch) -> dict[int, list[tuple[int, np.ndarray]]]:
     """For each node the lines that leave it, and whereto."""
     leaving: dict[int, list[tuple[int, np.ndarray]]] = {}
     for n, line in sorted(sketch.lines.items()):
-        leaving.setdefault(line.start, []).append((n, heading(line.curve)))
-        leaving.setdefault(line.end, []).append((n, heading(line.curve.reversed())))
+        leaving.setdefault(line.start, []).append((n, heading(line.curve.sampled(STEP_MM))))
+        leaving.setdefault(line.end, []).append((n, heading(line.curve.reversed().sampled(STEP_MM))))
     return leaving
 
 

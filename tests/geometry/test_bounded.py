@@ -22,9 +22,9 @@ from tests.geometry.shapes import (
 )
 from wrapit.geometry import Arc, BezierChain, FloatArray, joined, straight
 from wrapit.geometry.bezier import derivative, evaluate, second_derivative
-from wrapit.geometry.bounded import Bounded, bounded
+from wrapit.geometry.bounded import Bounded, Bounding, bounded
 from wrapit.geometry.outlines.loops import as_chain
-from wrapit.geometry.steering.tight import Tight
+from wrapit.geometry.steering.tight import Tight, tight_places, tight_places_of
 from wrapit.geometry.steering.windows import MOST, Windows
 
 MANY = np.linspace(0, 1, 101)
@@ -127,6 +127,28 @@ def test_no_bend_is_tighter_and_ends_stay(curve: BezierChain, radius: float, end
         assert np.array_equal(result.curve.end, curve.end)
     if end == "pinned":
         assert np.abs(result.curve.end_tangent - curve.end_tangent).max() < 1e-9
+
+
+@settings(max_examples=30)
+@given(
+    chains,
+    st.floats(0.3, 2),
+    st.permutations(list(itertools.product(["pinned", "placed", "free"], repeat=2))),
+)
+def test_one_way_after_another_is_each_by_itself(curve: BezierChain, radius: float, ways: list) -> None:
+    bounding = Bounding(curve, radius)
+    for way in ways[:4]:
+        one, other = bounding.held(*way), bounded(curve, radius, *way)
+        assert (one is None) == (other is None)
+        if one is not None and other is not None:
+            assert np.array_equal(one.curve.points, other.curve.points)
+            assert (one.deviation, one.spans) == (other.deviation, other.spans)
+
+
+@settings(max_examples=30)
+@given(st.lists(st.one_of(chains, rings()), max_size=4), st.floats(0.3, 2), st.booleans())
+def test_tight_places_are_the_same_one_by_one(curves: list, radius: float, closed: bool) -> None:
+    assert tight_places_of(curves, radius, closed) == [tight_places(each, radius, closed) for each in curves]
 
 
 @settings(max_examples=60)

@@ -9,9 +9,9 @@ from typing import Final
 import numpy as np
 
 from wrapit.drawing.model import Removal
-from wrapit.fit.faces import Faces, faces_of
+from wrapit.fit.faces import Faces
 from wrapit.fit.measuring import fewest_wires
-from wrapit.fit.merging import merged
+from wrapit.fit.merging.merged import merged, quoted
 from wrapit.fit.mirrored import mirror_of
 from wrapit.fit.model import Level, Limits
 from wrapit.fit.programme import Task, Weights, choose, needed_mm
@@ -39,12 +39,12 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
     helped stays as it is.
     """
     sketch = sketch.simplified(limits.shortest_mm)
-    sketch = zipped(sketch, limits, worths(sketch, faces_of(sketch), limits), keep)
+    sketch = zipped(sketch, limits, worths(sketch, sketch.faces, limits), keep)
     sketch = _tidied(sketch.simplified(), limits, keep)
     refused: set[int] = set()
     for turn in range(_ROUNDS):
         sketch = sketch.simplified()
-        faces = faces_of(sketch)
+        faces = sketch.faces
         if not short_lines(sketch, limits) and not small_faces(sketch, faces, limits):
             break
         pairs = mirror_of(sketch).pairs
@@ -132,11 +132,11 @@ def _mergeable(
             return None
         if any(len(sketch.arms[node]) < 3 for node in (line.start, line.end)):
             return None
-        merger = merged(sketch, n, limits.diameter_mm)
-        if merger is None:
+        quote = quoted(sketch, n, limits.diameter_mm)
+        if quote is None:
             return None
-        moved = sum(mm * worth[m] / sketch.lines[m].curve.length for m, mm in merger.moved.items())
-        return moved + (worth[n] if merger.lost else 0.0)
+        moved = sum(mm * worth[m] / sketch.lines[m].curve.length for m, mm in quote.moved.items())
+        return moved + (worth[n] if quote.lost else 0.0)
 
     costs = {n: cost(n) for n in sketch.lines}
     return {n: each for n, each in costs.items() if each is not None and costs[pairs.get(n, n)] is not None}

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 import numpy as np
 
-from wrapit.fit.faces import Faces, faces_of
 from wrapit.fit.model import Costs, Limits, Measures
 from wrapit.fit.sketch import Sketch
 from wrapit.geometry import BezierChain
 from wrapit.geometry.disjoint_sets import Sets
-from wrapit.geometry.steering.tight import tight_places
+from wrapit.geometry.steering.tight import tight_places_of
 
 # What turns by less (rad) is no bend: joints of drawings are that exact, and no hand.
 NOISE_RAD: Final = 2e-3
@@ -20,14 +19,13 @@ NOISE_RAD: Final = 2e-3
 _STEP_MM: Final = 0.1
 
 
-def measures(sketch: Sketch, limits: Limits, faces: Faces | None = None) -> Measures:
+def measures(sketch: Sketch, limits: Limits) -> Measures:
     """How fit a sketch is; the smallest face is None where there is none."""
-    found = faces_of(sketch) if faces is None else faces
     return Measures(
         segments=len(sketch.lines),
         wires=fewest_wires(sketch),
-        tight_bends=sum(tight_bends(line.curve, limits.radius_mm) for line in sketch.lines.values()),
-        smallest_face_mm=min((face.inside_mm for face in found.faces), default=None),
+        tight_bends=sum(tight_bends([line.curve for line in sketch.lines.values()], limits.radius_mm)),
+        smallest_face_mm=min((face.inside_mm for face in sketch.faces.faces), default=None),
         length_mm=sum(line.curve.length for line in sketch.lines.values()),
     )
 
@@ -43,9 +41,12 @@ def fewest_wires(sketch: Sketch) -> int:
     return sum(max(1, count // 2) for count in odd.values())
 
 
-def tight_bends(curve: BezierChain, radius_mm: float) -> int:
-    """How many stretches of a curve bend more tightly than a radius; a corner is one."""
-    return sum(bool(place.turn > NOISE_RAD) for place in tight_places(curve, radius_mm, closed=False))
+def tight_bends(curves: Sequence[BezierChain], radius_mm: float) -> list[int]:
+    """How many stretches of each curve bend more tightly than a radius; a corner is one."""
+    return [
+        sum(bool(place.turn > NOISE_RAD) for place in places)
+        for places in tight_places_of(curves, radius_mm, closed=False)
+    ]
 
 
 def costs(before: Sketch, after: Sketch, outline: Iterable[int], limits: Limits) -> Costs:

@@ -14,7 +14,7 @@ from typing import Final
 
 from wrapit.fit.districts import parted, regions
 from wrapit.fit.faces import Faces
-from wrapit.fit.merging import straight_on
+from wrapit.fit.merging.straightness import straight_on
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Sketch
 from wrapit.highs import Name, Programme

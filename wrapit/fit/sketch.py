@@ -17,6 +17,8 @@ from wrapit.geometry.polyline import lengths
 if TYPE_CHECKING:
     import shapely
 
+    from wrapit.fit.faces import Faces
+
 # How finely lines become chains of points: far below a wire's thickness. Half of it changes no circle inside
 # a face of the corpus by more than 0.01 mm.
 STEP_MM = 0.1
@@ -48,7 +50,8 @@ class Line:
     @cached_property
     def headings(self) -> tuple[FloatArray, FloatArray]:
         """Directions (2,) in which the line leaves its start and its end, over its first mm there."""
-        return heading(self.curve), heading(self.curve.reversed())
+        points = self.curve.sampled(STEP_MM)
+        return heading(points), heading(points[::-1])
 
     def reversed(self) -> Line:
         """The same line travelled the other way."""
@@ -102,6 +105,13 @@ class Sketch:
 
         numbers = sorted(self.lines)
         return numbers, shapely.STRtree([self.lines[number].shape for number in numbers])
+
+    @cached_property
+    def faces(self) -> Faces:
+        """What the lines enclose, and which are seen from outside."""
+        from wrapit.fit.faces import faces_of  # which asks for sketches
+
+        return faces_of(self)
 
     def leaving(self, arm: Arm) -> BezierChain:
         """The curve of an arm, travelled away from its node."""
@@ -179,9 +189,8 @@ def _key(curve: BezierChain) -> tuple[bytes, ...]:
     return tuple(sorted((there, back)))
 
 
-def heading(curve: BezierChain) -> FloatArray:
-    """The direction in which a curve leaves its start, over its first mm."""
-    points = curve.sampled(STEP_MM)
+def heading(points: FloatArray) -> FloatArray:
+    """The direction in which a chain of points leaves its start, over its first mm."""
     along = lengths(points)
     at = min(int(np.searchsorted(along, min(_LOOK_MM, along[-1] / 2))), len(points) - 1)
     step = points[max(at, 1)] - points[0]

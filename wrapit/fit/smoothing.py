@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 
 from wrapit.drawing.model import Removal
 from wrapit.fit.measuring import tight_bends
-from wrapit.fit.merging import is_planar, straight_on
+from wrapit.fit.merging.planarity import is_planar
+from wrapit.fit.merging.straightness import straight_on
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import STEP_MM, Line, Sketch
-from wrapit.geometry.bounded import Bounded, bounded
+from wrapit.geometry.bounded import Bounded, Bounding, bounded
 from wrapit.geometry.polyline import lengths
 from wrapit.geometry.steering.paths import Held
 
@@ -30,9 +32,10 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     loose end may move. An end is held less firmly where the line stays much nearer to the drawing so. A line
     that can't be widened without crossing another stays.
     """
-    tight = [n for n, line in sketch.lines.items() if tight_bends(line.curve, limits.radius_mm)]
+    bends = tight_bends([line.curve for line in sketch.lines.values()], limits.radius_mm)
+    tight = [n for n, count in zip(sketch.lines, bends, strict=True) if count]
     tight.sort(key=lambda n: (-round(sketch.lines[n].curve.length, 3), n))  # however they are numbered
-    ways = {n: _ways(sketch, n, limits) for n in tight}
+    ways = {n: _ways(sketch, n, limits) for n in tight}  # of the sketch as it is now
     for n in tight:
         line = sketch.lines[n]
         for found in ways[n]:
@@ -45,23 +48,29 @@ def smoothed(sketch: Sketch, limits: Limits) -> Sketch:
     return sketch
 
 
-def _ways(sketch: Sketch, n: int, limits: Limits) -> list[Bounded]:
-    """How a line can be widened, the best first."""
+def _ways(sketch: Sketch, n: int, limits: Limits) -> Iterator[Bounded]:
+    """How a line can be widened, the best first; what is dearer is looked for when it is asked for."""
     line, radius_mm = sketch.lines[n], limits.radius_mm
     if line.is_ring and len(sketch.arms[line.start]) == 2:
         ring = bounded(line.curve, radius_mm, "free", "free", closed=True)
-        return [] if ring is None else [ring]
+        if ring is not None:
+            yield ring
+        return
+    bounding = Bounding(line.curve, radius_mm)
     start, end = _held(sketch, n, last=False), _held(sketch, n, last=True)
     found: list[tuple[float, int, Bounded]] = []
     holds = ((start, end), (start, _LOOSER[end]), (_LOOSER[start], end), (_LOOSER[start], _LOOSER[end]))
     for way in dict.fromkeys(holds):
-        wide = bounded(line.curve, radius_mm, *way)
+        loosened = (way[0] != start) + (way[1] != end)
+        while found and found[0][0] < _LOOSENED * radius_mm * loosened:
+            yield found.pop(0)[2]  # no way still to come is as good
+        wide = bounding.held(*way)
         if wide is not None:
-            loosened = (way[0] != start) + (way[1] != end)
             found.append((wide.deviation + _LOOSENED * radius_mm * loosened, loosened, wide))
+            found.sort(key=lambda each: each[:2])
             if wide.deviation <= _LOOSENED * radius_mm:
                 break
-    return [wide for *_, wide in sorted(found, key=lambda each: each[:2])]
+    yield from (wide for *_, wide in found)
 
 
 def _held(sketch: Sketch, n: int, *, last: bool) -> Held:

@@ -10,7 +10,6 @@ from wrapit.errors import Finding
 from wrapit.fit.beading.bead_places import beads_of, in_segments
 from wrapit.fit.beading.beads import beaded
 from wrapit.fit.clearing import cleared
-from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures
 from wrapit.fit.model import Bead, Fitted, Level, Limits
@@ -48,15 +47,14 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
         if after.removed
         else (drawing, tuple((segment.id,) for segment in drawing.segments))
     )
-    faces = faces_of(before)
     fitted = Fitted(
         drawing,
         made,
         origins,
         in_segments(beads, made),
-        measures(before, limits, faces),
+        measures(before, limits),
         measures(after, limits),
-        costs(before, after, faces.outline, limits),
+        costs(before, after, before.faces.outline, limits),
     )
     return fitted, findings
 

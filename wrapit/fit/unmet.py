@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from wrapit.config import Config
 from wrapit.errors import Finding
 from wrapit.fit.clearing import short_lines, small_faces
-from wrapit.fit.faces import faces_of
 from wrapit.fit.measuring import NOISE_RAD
 from wrapit.fit.model import Limits
 from wrapit.fit.programme import needed_mm
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry import FloatArray
 from wrapit.geometry.arclength import piece
-from wrapit.geometry.steering.tight import tight_places
+from wrapit.geometry.steering.tight import Tight, tight_places_of
 
 
 def unmet(sketch: Sketch, before: Sketch, limits: Limits, config: Config) -> tuple[Finding, ...]:
@@ -34,26 +33,27 @@ def unmet(sketch: Sketch, before: Sketch, limits: Limits, config: Config) -> tup
         long_mm, least_mm = f"{line.curve.length:.1f} mm", f"{limits.shortest_mm:g} mm"
         message = f"a line of {long_mm} stays, shorter than can be bent ({least_mm})"
         found.append(told(line.told("", "").at, message, line.origin))
-    faces = faces_of(sketch)
+    faces = sketch.faces
     for index in small_faces(sketch, faces, limits):
         face = faces.faces[index]
         needed = needed_mm(sketch, face.lines, limits)
         message = f"a face stays with {face.inside_mm:.1f} mm of room, where wire needs {needed:.1f} mm"
         # Where lines cross without a node, a face may have no line of its own.
-        lines = face.lines or frozenset([_line_at(sketch, face.centre)])
-        least = min(lines, key=lambda n: (sketch.lines[n].curve.length, n))
+        around = face.lines or frozenset([_line_at(sketch, face.centre)])
+        least = min(around, key=lambda n: (sketch.lines[n].curve.length, n))
         found.append(told(face.centre, message, sketch.lines[least].origin))
-    for _, line in sorted(sketch.lines.items()):
-        at = _tightest(line, limits)
+    lines = [line for _, line in sorted(sketch.lines.items())]
+    tight = tight_places_of([line.curve for line in lines], limits.radius_mm, closed=False)
+    for line, places in zip(lines, tight, strict=True):
+        at = _tightest(line, places)
         if at is not None:
             message = f"a bend tighter than {limits.radius_mm:.2f} mm stays: there is no room to widen it"
             found.append(told(at, message, (_nearest(at, line, before),)))
     return tuple(found)
 
 
-def _tightest(line: Line, limits: Limits) -> FloatArray | None:
+def _tightest(line: Line, tight: Sequence[Tight]) -> FloatArray | None:
     """Where a line turns most of all that is too tight, (2,); None where nothing is."""
-    tight = tight_places(line.curve, limits.radius_mm, closed=False)
     if not any(each.turn > NOISE_RAD for each in tight):
         return None
     worst = max(tight, key=lambda each: each.turn)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -12,7 +13,7 @@ from wrapit.geometry.arrays import FloatArray
 from wrapit.geometry.bezier import BezierChain, joined
 from wrapit.geometry.steering.paths import Held
 from wrapit.geometry.steering.replacing import FINE, New, crossings, replaced
-from wrapit.geometry.steering.tight import tight_places
+from wrapit.geometry.steering.tight import Tight, tight_places
 from wrapit.geometry.steering.windows import Window, Windows
 
 # A window in which no path is found is widened by this, so often.
@@ -45,52 +46,81 @@ def bounded(
     corner); `end` then means nothing. A curve that is gentle already is returned itself. Raises ValueError
     for a closed curve with a gap.
     """
-    if closed and not np.array_equal(curve.start, curve.end):
-        raise ValueError("a closed curve ends where it starts")
-    tight = tight_places(curve, radius, closed)
-    if not tight:
-        return Bounded(curve, 0.0, ())
-    division = Windows(np.concatenate([[0.0], np.cumsum(curve.lengths)]), radius, closed, start != "free")
-    length = division.length
-    wide = np.ones(len(tight))
-    paths: dict[tuple[float, float], New | None] = {}
-    best: Bounded | None = None
-    whole: set[frozenset[int]] = set()
-    for _ in range(TRIES):
-        windows = division.around(tight, wide, whole)
-        for window in windows:
-            if window.ends not in paths:
-                paths[window.ends] = _path(curve, length, radius, window, (start, end), closed)
-        new = {window: path for window in windows if (path := paths[window.ends]) is not None}
-        result = _assembled(curve, length, new) if len(new) == len(windows) else None
-        if result is None:
-            widened = [window for window in windows if window not in new]
-        elif crossings(result.curve, radius) > crossings(curve, radius):
-            widened = _crossing(curve, length, radius, new) or windows
-        elif best is None and result.deviation > FAR * radius:
-            best, widened = result, [window for window in windows if new[window].deviation > FAR * radius]
-        else:
-            return result if best is None or result.deviation < best.deviation else best
-        if all(window.length >= length for window in widened):
-            break
-        for window in widened:
-            wide[list(window.spans)] *= WIDER
-            whole |= window.cuts
-    return best
+    return Bounding(curve, radius, closed).held(start, end)
 
 
-def _path(
-    curve: BezierChain, length: float, radius: float, window: Window, ends: tuple[Held, Held], closed: bool
-) -> New | None:
-    """What takes the place of a window of the curve, whose ends are held as told; None if nothing can."""
-    if window.end > length:
-        parts = piece(curve, window.start, length), piece(curve, 0.0, window.end - length)
-        return replaced(joined(parts), radius, "pinned", "pinned", False)
-    whole = window.start <= 0, window.end >= length
-    ring = closed and all(whole)
-    start = ends[0] if ring or (whole[0] and not closed) else "pinned"
-    end = ends[1] if whole[1] and not closed else "pinned"
-    return replaced(piece(curve, window.start, window.end), radius, start, end, ring)
+@dataclass(frozen=True, eq=False)
+class Bounding:
+    """A curve to be `bounded`, with its ends held in several ways: what they share is found once."""
+
+    curve: BezierChain
+    radius: float
+    closed: bool = False
+    _paths: dict[tuple[float, float, Held, Held, bool], New | None] = field(default_factory=dict, init=False)
+
+    def __post_init__(self) -> None:
+        if self.closed and not np.array_equal(self.curve.start, self.curve.end):
+            raise ValueError("a closed curve ends where it starts")
+
+    @cached_property
+    def tight(self) -> list[Tight]:
+        """Where it bends too tightly."""
+        return tight_places(self.curve, self.radius, self.closed)
+
+    @cached_property
+    def _reach(self) -> FloatArray:
+        return np.concatenate([[0.0], np.cumsum(self.curve.lengths)])
+
+    @cached_property
+    def _crossings(self) -> int:
+        return crossings(self.curve, self.radius)
+
+    def held(self, start: Held, end: Held) -> Bounded | None:
+        """What `bounded` gives with the ends held so."""
+        curve, radius = self.curve, self.radius
+        if not self.tight:
+            return Bounded(curve, 0.0, ())
+        division = Windows(self._reach, radius, self.closed, start != "free")
+        length = division.length
+        wide = np.ones(len(self.tight))
+        best: Bounded | None = None
+        whole: set[frozenset[int]] = set()
+        for _ in range(TRIES):
+            windows = division.around(self.tight, wide, whole)
+            paths = {window: self._path(window, length, (start, end)) for window in windows}
+            new = {window: path for window, path in paths.items() if path is not None}
+            result = _assembled(curve, length, new) if len(new) == len(windows) else None
+            if result is None:
+                widened = [window for window in windows if window not in new]
+            elif crossings(result.curve, radius) > self._crossings:
+                widened = _crossing(curve, length, radius, new) or windows
+            elif best is None and result.deviation > FAR * radius:
+                best, widened = result, [window for window in windows if new[window].deviation > FAR * radius]
+            else:
+                return result if best is None or result.deviation < best.deviation else best
+            if all(window.length >= length for window in widened):
+                break
+            for window in widened:
+                wide[list(window.spans)] *= WIDER
+                whole |= window.cuts
+        return best
+
+    def _path(self, window: Window, length: float, ends: tuple[Held, Held]) -> New | None:
+        """What takes the place of a window of the curve, whose ends are held as told; None if nothing can."""
+        whole = window.start <= 0, window.end >= length
+        over = window.end > length
+        ring = self.closed and all(whole) and not over
+        start = ends[0] if ring or (whole[0] and not self.closed) else "pinned"
+        end = ends[1] if whole[1] and not self.closed else "pinned"
+        key = (*window.ends, start, end, ring)
+        if key not in self._paths:
+            if over:
+                parts = piece(self.curve, window.start, length), piece(self.curve, 0.0, window.end - length)
+                part = joined(parts)
+            else:
+                part = piece(self.curve, window.start, window.end)
+            self._paths[key] = replaced(part, self.radius, start, end, ring)
+        return self._paths[key]
 
 
 def _assembled(curve: BezierChain, length: float, new: dict[Window, New]) -> Bounded:

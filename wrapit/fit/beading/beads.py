@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from wrapit.drawing.model import Removal
-from wrapit.fit.faces import Face, faces_of
+from wrapit.fit.faces import Face
 from wrapit.fit.model import Bead, Limits
 from wrapit.fit.sketch import STEP_MM, Arm, Line, Sketch
 from wrapit.geometry import BezierChain, FloatArray, joined, straight
@@ -118,7 +118,7 @@ def _loops(sketch: Sketch, kept: frozenset[int], places: Sequence[tuple[float, f
     drawn = [*(each[len(each) // 2] for each in points.values()), *places]
     inner = shapely.points(np.array(drawn))
     found = []
-    for face in faces_of(sketch).faces:
+    for face in sketch.faces.faces:
         loop = _loop(sketch, face)
         if loop is None or loop.diameter_mm > largest_mm:
             continue

@@ -10,7 +10,8 @@ import numpy as np
 
 from wrapit.drawing.model import Removal
 from wrapit.drawing.reflection import Axis
-from wrapit.fit.merging import is_planar, led
+from wrapit.fit.merging.leading import led
+from wrapit.fit.merging.planarity import is_planar
 from wrapit.fit.model import Limits
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.fit.zipping.stretches import PARTING, Stretch, near_places, runs

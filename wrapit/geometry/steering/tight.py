@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -32,29 +33,46 @@ class Tight:
 
 def tight_places(curve: BezierChain, radius: float, closed: bool) -> list[Tight]:
     """Where a curve is too tight, in order; places nearer to each other than TOGETHER radii count as one."""
-    points, lengths = curve.points, curve.lengths
-    reach = np.concatenate([[0.0], np.cumsum(lengths)])
+    return tight_places_of([curve], radius, closed)[0]
+
+
+def tight_places_of(curves: Sequence[BezierChain], radius: float, closed: bool) -> list[list[Tight]]:
+    """The same for each of many curves, looked at together: most of the work is the same for few cubics."""
+    if not curves:
+        return []
+    counts = np.array([len(curve) for curve in curves])
+    points = np.concatenate([curve.points for curve in curves])
+    lengths = np.concatenate([curve.lengths for curve in curves])
+    owner = np.repeat(np.arange(len(curves)), counts)
+    lasts = np.cumsum(counts) - 1
+    firsts = lasts - counts + 1
+    ends = np.concatenate([np.cumsum(curve.lengths) for curve in curves])
+    starts = np.concatenate([[0.0], ends[:-1]])
+    starts[firsts] = 0.0
     t = np.linspace(0, 1, PLACES)
     xy = evaluate(points, t)
     steps = norms(np.diff(xy, axis=1))
     share = np.cumsum(steps, axis=1) / np.maximum(steps.sum(axis=1, keepdims=True), 1e-300)
-    at = reach[:-1, None] + lengths[:, None] * np.concatenate([np.zeros((len(points), 1)), share], 1)
+    at = starts[:, None] + lengths[:, None] * np.concatenate([np.zeros((len(points), 1)), share], 1)
     headings = headings_of(points, t)
     turns = np.abs(wrapped(np.diff(headings, axis=1)))
     slack = TIGHT / radius
     # A cubic's end without a handle has no curvature of its own: what it turns by tells.
     between = turns > np.maximum(slack * 1.02 * np.diff(at, axis=1), 1e-9)
     bent = np.abs(curvatures(points, t)) > slack
-    places: list[tuple[float, float, float]] = []
+    places: list[list[tuple[float, float, float]]] = [[] for _ in curves]
     for i, j in zip(*np.nonzero(between), strict=True):
-        places.append((at[i, j], at[i, j + 1], turns[i, j]))
+        places[owner[i]].append((at[i, j], at[i, j + 1], turns[i, j]))
     for i, j in zip(*np.nonzero(bent), strict=True):
-        places.append((at[i, j], at[i, j], 0.0))
-    corners = bends(headings)
+        places[owner[i]].append((at[i, j], at[i, j], 0.0))
+    then = np.arange(1, len(points) + 1)
+    then[lasts] = firsts
+    corners = np.abs(wrapped(headings[then, 0] - headings[:, -1]))
+    if not closed:
+        corners[lasts] = 0.0
     for i in np.flatnonzero(corners > CORNER_RAD):
-        if i < len(points) - 1 or closed:
-            places.append((reach[i + 1], reach[i + 1], corners[i]))
-    return grouped(sorted(places), TOGETHER * radius)
+        places[owner[i]].append((ends[i], ends[i], corners[i]))
+    return [grouped(sorted(each), TOGETHER * radius) for each in places]
 
 
 def seam_rad(curve: BezierChain) -> float:

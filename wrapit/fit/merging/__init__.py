@@ -1,0 +1,1 @@
+"""Two nodes become one: what that moves, and whether lines cross for it."""
