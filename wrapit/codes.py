@@ -89,8 +89,13 @@ DRAWING: Final = {
 
 WIRES: Final = {
     "bail": Saying("a wire's end is bent into a loop to hang the piece from", NOTHING),
+    "cramped-double": Saying(
+        "a line is too short or bends too tightly for two wires side by side",
+        "allow more wires with `decomposition.max_wires`, make the piece larger, or use thinner wire",
+    ),
     "doubled-wire": Saying(
-        "hanging lines are laid back over themselves", "set `decomposition.refine_dangling: never`"
+        "wire runs along lines twice: back over hanging ones, or to make do with fewer wires",
+        "set `decomposition.refine_dangling: never`, or a larger `decomposition.max_wires`",
     ),
     "hairpin-short": Saying(
         "a wire turns back beyond the end of its line, which is too short for the bend",

@@ -70,8 +70,10 @@ def decompose(drawing: Drawing, config: Config | None = None) -> tuple[Solution,
     Raises DecompositionError where the wishes in the config can't be met together.
     """
     from wrapit.decomposition.stage import decompose as run
+    from wrapit.wires.beside.side_by_side import room_of
 
-    return run(drawing, (config if config is not None else _usual()).decomposition)
+    config = config if config is not None else _usual()
+    return run(drawing, config.decomposition, room_of(config))
 
 
 def draw_wires(

@@ -62,11 +62,10 @@ def test_refinement_of_any_graph_is_a_few_walks_over_everything(family: str) -> 
         answer = solve_exactly(Problem(graph, Weights(0.1, 0.0)), 0)
         assert answer is not None
         before = trails_of(graph, answer.mate)
-        trails, doubled = doubled_back(graph, before)
+        trails = doubled_back(graph, before)
         runs = [t.segment for trail in trails for t in trail.traversals]
         assert weak_trails(graph, trails) == []
         assert set(runs) == set(range(graph.segments))
-        assert {e for e in runs if runs.count(e) > 1} == set(doubled)
         for trail in trails:
             ends = [(2 * t.segment + t.reversed, 2 * t.segment + 1 - t.reversed) for t in trail.traversals]
             stops = [(graph.junction_of[a], graph.junction_of[b]) for a, b in ends]

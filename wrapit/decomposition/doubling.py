@@ -6,7 +6,6 @@ metal is doubled and nothing can swing.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from wrapit.decomposition.energy import bends_of, contacts_of, junctions_of, weak_trails
@@ -17,8 +16,8 @@ from wrapit.decomposition.trails import in_wire_order
 Run = tuple[Traversal, ...]
 
 
-def doubled_back(graph: Graph, trails: Sequence[Trail]) -> tuple[tuple[Trail, ...], tuple[int, ...]]:
-    """Trails of which none hangs on one junction any more, and the segments that are run along twice.
+def doubled_back(graph: Graph, trails: Sequence[Trail]) -> tuple[Trail, ...]:
+    """Trails of which none hangs on one junction any more; for that they may run along segments twice.
 
     Every hanging trail is tried at every place where a neighbour could take it in; what leaves the
     fewest hanging ones is done, and of that what needs the least metal, then the least bends. Where
@@ -30,8 +29,7 @@ def doubled_back(graph: Graph, trails: Sequence[Trail]) -> tuple[tuple[Trail, ..
             (option for index in weak for option in _without(graph, merged, index)),
             key=lambda option: _cost(graph, option),
         )
-    counts = Counter(traversal.segment for trail in merged for traversal in trail.traversals)
-    return in_wire_order(graph, merged), tuple(sorted(e for e, count in counts.items() if count > 1))
+    return in_wire_order(graph, merged)
 
 
 def _without(graph: Graph, trails: Sequence[Trail], index: int) -> Iterator[list[Trail]]:

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from wrapit.decomposition.energy import weak_trails
 from wrapit.decomposition.graph import Graph, fewest_possible_wires, pieces
 from wrapit.decomposition.json_file import wire_name
 from wrapit.decomposition.model import Solution
+from wrapit.decomposition.second_runs import SideBySide, cramped
 from wrapit.errors import Finding
 
 
-def findings_of(graph: Graph, solution: Solution, proves_more: str = "") -> tuple[Finding, ...]:
+def findings_of(
+    graph: Graph, solution: Solution, room: SideBySide | None = None, proves_more: str = ""
+) -> tuple[Finding, ...]:
     """Weak wires, doubled ones, separate pieces, answers that are not proven, and more wires than needed.
 
-    `proves_more` is what the user can do for a proof, empty where the solver promises none.
+    `room` is what two wires side by side need; `proves_more` is what the user can do for a proof, empty where
+    the solver promises none.
     """
     return (
         *_weak(graph, solution),
-        *_doubled(solution),
+        *(_run_twice(solution, room) if graph.second_runs else _doubled(solution)),
         *_pieces(graph, solution),
         *_unproven(solution, proves_more),
         *_more_than_needed(graph, solution),
@@ -39,16 +45,47 @@ def _weak(graph: Graph, solution: Solution) -> list[Finding]:
 def _doubled(solution: Solution) -> list[Finding]:
     if not solution.doubled:
         return []
-    segments = ", ".join(map(str, solution.doubled))
     return [
         Finding(
             "note",
             "doubled-wire",
             "decomposition",
-            f"hanging lines are doubled back over themselves: segments {segments}",
+            f"hanging lines are doubled back over themselves: segments {_named(solution.doubled)}",
             "set decomposition.refine_dangling: never to leave them hanging",
         )
     ]
+
+
+def _run_twice(solution: Solution, room: SideBySide | None) -> list[Finding]:
+    if not solution.doubled:
+        return []
+    drawing = solution.decomposition.drawing
+    length_mm = sum(drawing.segments[e].curve.length for e in solution.doubled)
+    named = _named(solution.doubled)
+    findings = [
+        Finding(
+            "note",
+            "doubled-wire",
+            "decomposition",
+            f"{length_mm:.0f} mm of the lines have two wires side by side: segments {named}",
+            "allow more wires with decomposition.max_wires for fewer of them",
+        )
+    ]
+    if tight := sorted(cramped(drawing, room) & set(solution.doubled)):
+        findings.append(
+            Finding(
+                "warning",
+                "cramped-double",
+                "decomposition",
+                f"segments {_named(tight)} are too short or bend too tightly for two wires side by side",
+                "allow more wires with decomposition.max_wires, make the piece larger, or use thinner wire",
+            )
+        )
+    return findings
+
+
+def _named(segments: Iterable[int]) -> str:
+    return ", ".join(map(str, segments))
 
 
 def _pieces(graph: Graph, solution: Solution) -> list[Finding]:

@@ -75,7 +75,8 @@ class Transition:
 class Decomposition:
     """`mate[h]` is the half-edge that the wire on half-edge h continues into, or NO_MATE at a wire end.
 
-    Segment e has `half_edges(e)`, 2e at its start and 2e + 1 at its end.
+    Segment e has `half_edges(e)`, 2e at its start and 2e + 1 at its end. Second runs on offer come after
+    the drawing's segments (`second_runs.with_second_runs`).
     """
 
     drawing: Drawing

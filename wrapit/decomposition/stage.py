@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -13,9 +14,10 @@ from wrapit.decomposition.constraints import rules_of
 from wrapit.decomposition.doubling import doubled_back
 from wrapit.decomposition.energy import energy_of_trails
 from wrapit.decomposition.findings import findings_of
-from wrapit.decomposition.graph import graph_of
-from wrapit.decomposition.model import Decomposition, Solution, Weights
+from wrapit.decomposition.graph import Graph, graph_of, pieces
+from wrapit.decomposition.model import NO_MATE, Decomposition, Solution, Weights, half_edges
 from wrapit.decomposition.problem import Answer, Problem, best_answers, parts_of, solve_piecewise
+from wrapit.decomposition.second_runs import SideBySide, cramped, with_second_runs
 from wrapit.decomposition.solvers import (
     SOLVERS,
     check_solver,
@@ -23,7 +25,7 @@ from wrapit.decomposition.solvers import (
     more_thorough,
     source_of_alternatives,
 )
-from wrapit.decomposition.trails import trails_of
+from wrapit.decomposition.trails import first_runs, trails_of
 from wrapit.drawing.model import Drawing
 from wrapit.drawing.reflection import mirror_images
 from wrapit.errors import ConfigError, DecompositionError, Finding
@@ -32,20 +34,24 @@ from wrapit.errors import ConfigError, DecompositionError, Finding
 _CLOSE = 1e-9
 
 
-def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
+def decompose(
+    drawing: Drawing, config: DecompositionConfig, room: SideBySide | None = None
+) -> tuple[Solution, tuple[Finding, ...]]:
     """The best wires that the chosen solver finds for a drawing (paper, section 4).
 
     A drawing in several pieces is decomposed piece by piece: robustness, and its exemption for a
     single wire, are those of each piece. Trails come in wire order, longest first. With
-    `config.bridges` the solution's drawing has the bridges on offer appended to its segments.
+    `config.bridges` the solution's drawing has the bridges on offer appended to its segments. With
+    `config.doubling` or `config.max_wires` lines may be run along twice; where `room` says that two wires
+    side by side have too little of it, at a higher price.
 
     Raises DecompositionError for a drawing without segments and for constraints that can't be met
     together; ConfigError for a constraint that names what the drawing doesn't have, for what the
     solver can't heed, and for a `config.choice` beyond those that there are.
     """
     if config.choice > 1:
-        return _chosen(drawing, config)
-    drawing, problem = _posed(drawing, config)
+        return _chosen(drawing, config, room)
+    drawing, problem = _posed(drawing, config, room)
     rng = np.random.default_rng(config.seed)
     solver = SOLVERS[config.solver]
     answer = solve_piecewise(
@@ -54,23 +60,51 @@ def decompose(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, 
     if answer is None or not problem.is_allowed(answer.mate):
         raise _refusal(problem, config)
     solution = _solution(drawing, problem, answer, config, config.solver)
-    return solution, findings_of(problem.graph, solution, solver.proves_more)
+    return solution, findings_of(problem.graph, solution, room, solver.proves_more)
 
 
-def alternatives(drawing: Drawing, config: DecompositionConfig, k: int) -> tuple[Solution, ...]:
+def alternatives(
+    drawing: Drawing, config: DecompositionConfig, k: int, room: SideBySide | None = None
+) -> tuple[Solution, ...]:
     """The k best different decompositions, best first, by the solver or the one that it names for this.
 
     Where a closed wire is left open makes no difference. `optimal` says that no other decomposition
     but those before is better. Raises as `decompose` does, and ConfigError where the
     solver finds none.
     """
-    solver, drawing, problem, answers = _best(drawing, config, k)
+    solver, drawing, problem, answers = _best(drawing, config, k, room)
     return tuple(_solution(drawing, problem, answer, config, solver) for answer in answers)
 
 
-def _chosen(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tuple[Finding, ...]]:
+def front(
+    drawing: Drawing, config: DecompositionConfig, room: SideBySide | None = None
+) -> tuple[Solution, ...]:
+    """Wires against length run twice: the cheapest answer for each number of wires, the most wires first.
+
+    From the best without second runs down to one wire for each piece of the drawing; of more than
+    MOST_CHOICES numbers the least ones. Raises as `decompose` does.
+    """
+    free = config.model_copy(update={"max_wires": None, "doubling": False, "choice": 1})
+    found = [decompose(drawing, free, room)[0]]
+    for most in range(min(_most_of_a_piece(found[0]), MOST_CHOICES) - 1, 0, -1):
+        fewer = decompose(drawing, free.model_copy(update={"max_wires": most}), room)[0]
+        if fewer.energy.complexity < found[-1].energy.complexity:
+            found.append(fewer)
+    return tuple(found)
+
+
+def _most_of_a_piece(solution: Solution) -> int:
+    """Of the pieces that touch nothing else, the number of wires of the one that has most."""
+    graph = graph_of(solution.decomposition.drawing)
+    of = {e: index for index, piece in enumerate(pieces(graph)) for e in piece}
+    return max(Counter(of[trail.traversals[0].segment] for trail in solution.trails).values())
+
+
+def _chosen(
+    drawing: Drawing, config: DecompositionConfig, room: SideBySide | None
+) -> tuple[Solution, tuple[Finding, ...]]:
     """The alternative that `config.choice` names, measured against the bound that the best one meets."""
-    solver, drawing, problem, answers = _best(drawing, config, min(config.choice, MOST_CHOICES))
+    solver, drawing, problem, answers = _best(drawing, config, min(config.choice, MOST_CHOICES), room)
     if len(answers) < config.choice:
         there_are = "the best of many are" if len(answers) == MOST_CHOICES else "this drawing has"
         raise ConfigError(
@@ -80,15 +114,15 @@ def _chosen(drawing: Drawing, config: DecompositionConfig) -> tuple[Solution, tu
         )
     answer = replace(answers[-1], lower_bound=answers[0].lower_bound)
     solution = _solution(drawing, problem, answer, config, solver)
-    return solution, findings_of(problem.graph, solution)
+    return solution, findings_of(problem.graph, solution, room)
 
 
 def _best(
-    drawing: Drawing, config: DecompositionConfig, k: int
+    drawing: Drawing, config: DecompositionConfig, k: int, room: SideBySide | None
 ) -> tuple[SolverName, Drawing, Problem, list[Answer]]:
     """The best answers, with the problem and the solver that they are of; raises as `alternatives` does."""
     solver, another = source_of_alternatives(config)
-    drawing, problem = _posed(drawing, config)
+    drawing, problem = _posed(drawing, config, room)
     answers = best_answers(
         problem,
         parts_of(problem, config.bridges),
@@ -100,7 +134,7 @@ def _best(
     return solver, drawing, problem, [answer for answer in answers if problem.is_allowed(answer.mate)]
 
 
-def _posed(drawing: Drawing, config: DecompositionConfig) -> tuple[Drawing, Problem]:
+def _posed(drawing: Drawing, config: DecompositionConfig, room: SideBySide | None) -> tuple[Drawing, Problem]:
     """The drawing, with bridges if they are asked for, and the problem that it poses."""
     if not any(segment.kind == "stroke" for segment in drawing.segments):
         raise DecompositionError("the drawing has no lines to make wires of", remedy="draw at least one line")
@@ -108,12 +142,29 @@ def _posed(drawing: Drawing, config: DecompositionConfig) -> tuple[Drawing, Prob
     if config.bridges:
         drawing = with_bridges(drawing)
     graph = graph_of(drawing)
+    if config.doubling or config.max_wires is not None:
+        graph = with_second_runs(graph, cramped(drawing, room))
     return drawing, Problem(
         graph,
         Weights(**config.weights.model_dump()),
-        rules_of(graph, config.constraints, config.bridges),
-        mirror_images(drawing, config.mirror) if config.weights.symmetry else (),
+        rules_of(graph, config.constraints, config.bridges, config.max_wires),
+        _mirror(drawing, graph, config),
     )
+
+
+def _mirror(drawing: Drawing, graph: Graph, config: DecompositionConfig) -> tuple[int, ...]:
+    """The mirror image of each half-edge where symmetry has a weight; that of a second run is one too."""
+    if not config.weights.symmetry:
+        return ()
+    mirror = mirror_images(drawing, config.mirror)
+    second = {run.segment: e for e, run in graph.second_runs.items()}
+    images = []
+    for run in graph.second_runs.values():
+        for h in half_edges(run.segment):
+            image = mirror[h]
+            twin = second.get(image >> 1) if image != NO_MATE else None
+            images.append(NO_MATE if twin is None else 2 * twin + image % 2)
+    return (*mirror, *images)
 
 
 def _solution(
@@ -122,16 +173,16 @@ def _solution(
     """An answer with its trails and with its energy, evaluated anew from them."""
     graph = problem.graph
     trails = trails_of(graph, answer.mate)
-    doubled: tuple[int, ...] = ()
     energy, bound = problem.energy(answer.mate), answer.lower_bound
     optimal = bound is not None and energy.total - bound < _CLOSE * (1 + energy.total)
     if config.refine_dangling == "auto":
-        trails, doubled = doubled_back(graph, trails)
+        trails = doubled_back(graph, trails)
         refined = energy_of_trails(graph, trails, problem.weights, energy.asymmetry)
         # The bound is about decompositions as they are before any doubling.
         bound = None if bound is None else bound + refined.total - energy.total
         energy = refined
-    used = {traversal.segment for trail in trails for traversal in trail.traversals}
+    trails = first_runs(graph, trails)
+    runs = Counter(traversal.segment for trail in trails for traversal in trail.traversals)
     return Solution(
         decomposition=Decomposition(drawing, answer.mate),
         trails=trails,
@@ -142,8 +193,8 @@ def _solution(
         iterations=answer.iterations,
         lower_bound=bound,
         optimal=optimal,
-        bridges_used=tuple(sorted(used & graph.bridges)),
-        doubled=doubled,
+        bridges_used=tuple(sorted(runs.keys() & graph.bridges)),
+        doubled=tuple(sorted(e for e, count in runs.items() if count > 1)),
     )
 
 
@@ -175,7 +226,8 @@ def _is_impossible(
     problem: Problem, config: DecompositionConfig, constraints: Sequence[ConstraintConfig]
 ) -> bool:
     """Whether no wires can meet the constraints, proved; a search that ran out of work proves nothing."""
-    asked = replace(problem, rules=rules_of(problem.graph, constraints, config.bridges))
+    rules = rules_of(problem.graph, constraints, config.bridges, config.max_wires)
+    asked = replace(problem, rules=rules)
     solver, rng = exhaustive_solver(config), np.random.default_rng(config.seed)
     answer = solve_piecewise(
         asked, parts_of(asked, config.bridges), lambda part: solver.solve(part, config, rng)

@@ -12,8 +12,8 @@ def trails_of(graph: Graph, mate: Sequence[int]) -> tuple[Trail, ...]:
     """The trails of a matching: longest first (in mm), of equal ones the one with the lowest segment first.
 
     Each runs from the end with the lower half-edge number, so the result depends on nothing but the
-    matching. Bridges and second runs that join nothing are left out. Raises ValueError where `mate` isn't a matching
-    of half-edges that meet, or closes a ring.
+    matching. What is optional and joins nothing is left out. Raises ValueError where `mate` isn't a
+    matching of half-edges that meet, or closes a ring.
     """
     check_matching(graph, mate)
     trails: list[Trail] = []
@@ -29,6 +29,18 @@ def trails_of(graph: Graph, mate: Sequence[int]) -> tuple[Trail, ...]:
     if rings := set(range(graph.segments)) - covered - graph.optional:
         raise ValueError(f"segment {min(rings)} is on a ring; a closed wire is left open somewhere")
     return in_wire_order(graph, trails)
+
+
+def first_runs(graph: Graph, trails: Iterable[Trail]) -> tuple[Trail, ...]:
+    """The trails over the segments of the drawing: a second run has the number of what it runs along."""
+    firsts = {e: run.segment for e, run in graph.second_runs.items()}
+    return tuple(
+        Trail(
+            tuple(Traversal(firsts.get(t.segment, t.segment), t.reversed) for t in trail.traversals),
+            trail.closed,
+        )
+        for trail in trails
+    )
 
 
 def in_wire_order(graph: Graph, trails: Iterable[Trail]) -> tuple[Trail, ...]:

@@ -106,10 +106,11 @@ def write_alternatives(work: Work, folder: Path) -> Outcome:
     """`alternatives.svg`: the best decompositions side by side."""
     from wrapit.decomposition.stage import alternatives
     from wrapit.exports.alternatives_svg import alternatives_svg
+    from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
     assert work.drawing is not None
-    choices = alternatives(work.drawing, work.config.decomposition, work.alternatives)
+    choices = alternatives(work.drawing, work.config.decomposition, work.alternatives, room_of(work.config))
     shown = [(choice, draw_wires(choice, work.config, work.beads)[0]) for choice in choices]
     write_text(folder / ALTERNATIVES, alternatives_svg(shown))
     return Outcome(files=(ALTERNATIVES,))

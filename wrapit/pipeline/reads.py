@@ -67,6 +67,9 @@ STEPS: Final[dict[str, Step]] = {
 }
 """Steps by name. `jig sheet` and so on are those of a kind."""
 
+_SIDE_BY_SIDE: Final = ("wire", "jig.clearance", "jig.min_wall_width", "jig.post_bends", "jig.springback")
+"""What says where two wires side by side have room, read where lines may be run along twice."""
+
 _NO_FIT: Final = Step(("trace",), ("fit", "drop", "beads"))
 """Where `fit` isn't taken, what says so: a drawing that isn't fitted is that of any wire."""
 
@@ -81,10 +84,11 @@ class Keys:
         self._settings = config.model_dump(mode="json")
         self._drawing = (drawing_sha256, suffix)
         self._fit = takes_fit(config)
+        self._twice = config.decomposition.doubling or config.decomposition.max_wires is not None
 
     def of(self, step: str, *also: Any, upon: Iterable[str] = ()) -> str:
         """The key of a step; `also` is JSON that it depends on too, `upon` more steps that it is upon."""
-        read = {path for each in (step, *upon) for path in all_reads(each, fit=self._fit)}
+        read = {path for each in (step, *upon) for path in all_reads(each, fit=self._fit, twice=self._twice)}
         settings = {path: _part(self._settings, path) for path in read}
         return key_of(step, self._drawing, settings, *also)
 
@@ -94,10 +98,14 @@ def takes_fit(config: Config) -> bool:
     return config.fit != "off" or bool(config.drop) or config.beads != "never"
 
 
-def all_reads(step: str, *, fit: bool = True) -> set[str]:
-    """Keys of the config that a step depends on, itself and by way of others; `fit` as `takes_fit` says."""
+def all_reads(step: str, *, fit: bool = True, twice: bool = True) -> set[str]:
+    """Keys of the config that a step depends on, itself and by way of others.
+
+    `fit` as `takes_fit` says; `twice` says whether lines may be run along twice.
+    """
     said = _NO_FIT if step == "fit" and not fit else STEPS.get(step, _WHOLE)
-    return set(said.reads).union(*(all_reads(each, fit=fit) for each in said.upon))
+    more = _SIDE_BY_SIDE if step == "decomposition" and twice else ()
+    return {*said.reads, *more}.union(*(all_reads(each, fit=fit, twice=twice) for each in said.upon))
 
 
 def _part(settings: Any, path: str) -> Any:

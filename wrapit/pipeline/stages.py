@@ -120,9 +120,10 @@ def _decompose(work: Work, folder: Path | None) -> None:
         from wrapit.decomposition.json_file import decomposition_json
         from wrapit.decomposition.stage import decompose
         from wrapit.pipeline.report import decomposition_numbers
+        from wrapit.wires.beside.side_by_side import room_of
 
         assert work.drawing is not None
-        solution, findings = decompose(work.drawing, work.config.decomposition)
+        solution, findings = decompose(work.drawing, work.config.decomposition, room_of(work.config))
         numbers = decomposition_numbers(solution, fewest_possible_wires(graph_of(work.drawing)))
         if folder is not None:
             write_text(folder / "decomposition.json", decomposition_json(solution))

@@ -80,9 +80,10 @@ def helped_by_fit(work: Work, codes: AbstractSet[str]) -> list[str]:
 def _is_held(drawing: Drawing, work: Work) -> bool:
     """Whether the first kind of jig would hold enough of a drawing's turns, and more than of the work's."""
     from wrapit.decomposition.stage import decompose
+    from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
-    solution, _ = decompose(drawing, work.config.decomposition)
+    solution, _ = decompose(drawing, work.config.decomposition, room_of(work.config))
     wires, _ = draw_wires(solution, work.config)
     then = _held(wires, work.config)
     return then >= max(work.config.jig.least_support, _held(work.wires, work.config) + _MORE_HELD)

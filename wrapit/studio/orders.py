@@ -55,6 +55,7 @@ def find_alternatives(tell: Tell, config_path: Path, count: int) -> None:
     Raises what the stages raise.
     """
     from wrapit.decomposition.stage import alternatives
+    from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
     config = load_config(config_path)
@@ -68,7 +69,7 @@ def find_alternatives(tell: Tell, config_path: Path, count: int) -> None:
     )
     run_stages(work, None)
     assert work.drawing is not None, "the first stage traces it"
-    choices = alternatives(work.drawing, config.decomposition, count)
+    choices = alternatives(work.drawing, config.decomposition, count, room_of(config))
     shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
     tell({"alternatives": alternative_documents(shown)})
 

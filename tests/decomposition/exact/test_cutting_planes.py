@@ -25,7 +25,7 @@ SMALL = {"seed": st.integers(0, 10**9), "segments": st.integers(2, 5), "junction
 def excess(cut: Cut, graph: Graph, mate: Sequence[int]) -> float:
     """How far a matching breaks an inequality, with the variables at what they stand for."""
     left = sum(cut.transitions.get((a, b), 0.0) for a, b in enumerate(mate) if a < b)
-    left += sum(c for e, c in cut.bridges.items() if any(mate[h] >= 0 for h in half_edges(e)))
+    left += sum(c for e, c in cut.used.items() if any(mate[h] >= 0 for h in half_edges(e)))
     return left - (cut.weak in weak_wires(graph, mate)) - cut.limit
 
 

@@ -8,7 +8,7 @@ once more: a minimum-weight matching (Edmonds and Johnson, *Matching, Euler tour
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, pairwise
 
 from wrapit.decomposition.problem import Problem
 
@@ -44,5 +44,5 @@ def least_second_runs(problem: Problem, wires: int) -> tuple[frozenset[int], flo
     for one, other in sorted(nx.min_weight_matching(pairs), key=str):
         course = [] if one in free or other in free else courses[min(one, other), max(one, other)]
         # What two pairs have in common is run along an even number of times more: not at all.
-        used ^= {ways.edges[a, b]["segment"] for a, b in zip(course, course[1:], strict=False)}
+        used ^= {ways.edges[a, b]["segment"] for a, b in pairwise(course)}
     return frozenset(used), sum(map(problem.price, sorted(used)))

@@ -29,7 +29,7 @@ def descended(problem: Problem, mate: Sequence[int]) -> list[int]:
 
 
 class Wires:
-    """Wires that grow and shrink, starting with one per stroke and nothing optional unless `mate` says otherwise.
+    """Wires that grow and shrink, starting with one per stroke and nothing optional unless `mate` says so.
 
     `mate` is always a valid matching without rings; `energy` follows it. Rules that it breaks add to
     the energy, each more than any move can save; forbidden transitions are never made.
@@ -73,7 +73,7 @@ class Wires:
         return self._apply(*self._transition(a, b), budget)
 
     def use(self, a: int, b: int, c: int, d: int, budget: float) -> bool:
-        """Makes a–b and c–d transitions at once, if that costs at most `budget`: both ends of what is optional."""
+        """Makes a–b and c–d transitions at once, if that costs at most `budget`: both ends of a bridge."""
         first, second = self._transition(a, b), self._transition(c, d)
         return self._apply(first[0] + second[0], first[1] + second[1], budget)
 

@@ -55,11 +55,13 @@ def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
 def tried(config: Config, path: Path) -> Tried:
     """The wires that a build would make. Raises the WrapItError of the stage that fails."""
     from wrapit.decomposition.stage import decompose
+    from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
     drawing, fitted = read(config, path)
     beads = fitted.beads if fitted is not None else ()
-    wires, findings = draw_wires(decompose(drawing, config.decomposition)[0], config, beads)
+    solution, _ = decompose(drawing, config.decomposition, room_of(config))
+    wires, findings = draw_wires(solution, config, beads)
     return Tried(drawing, fitted, wires, findings)
 
 
