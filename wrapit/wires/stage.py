@@ -17,6 +17,7 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.materials import METALS
 from wrapit.wires.bail import with_bail
 from wrapit.wires.beside.double_runs import double_runs
+from wrapit.wires.beside.pair_ties import with_pair_ties
 from wrapit.wires.beside.stage import APART, lay_beside
 from wrapit.wires.centreline import FOLD_RAD, Joined
 from wrapit.wires.model import Wire
@@ -81,7 +82,8 @@ def draw_wires(
                 doubles=doubles[index],
             )
         )
-    return with_beads(wires, beads), tuple(findings)
+    tied = with_pair_ties(wires, len(drawing.junctions))
+    return with_beads(tied, beads), tuple(findings)
 
 
 def _tightest(
