@@ -35,7 +35,7 @@ def _weak(graph: Graph, solution: Solution) -> list[Finding]:
             "warning",
             "weak-wire",
             wire_name(index),
-            f"{wire_name(index)} is tied to the others at one junction only and can swing about it",
+            "it is tied to the others at one junction only and can swing about it",
             "extend its line until it meets another one, or set decomposition.refine_dangling: auto",
         )
         for index in weak_trails(graph, solution.trails)
