@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -28,15 +28,28 @@ settings.load_profile("wrapit")
 
 
 @pytest.fixture(scope="session")
-def piece(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Build]:
-    """Builds a config of ours, by name, once per session: what one worker built, others recall."""
+def shared_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache for all workers of this session."""
     base = tmp_path_factory.getbasetemp()
-    shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "cache"
+    return (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "cache"
+
+
+@pytest.fixture(scope="module")
+def recalling(shared_cache: Path) -> Iterator[None]:
+    """For tests that aren't about building: what any test of this session built before is recalled."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WRAPIT_CACHE", str(shared_cache))
+        yield
+
+
+@pytest.fixture(scope="session")
+def piece(shared_cache: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Build]:
+    """Builds a config of ours, by name, once per session: what one worker built, others recall."""
 
     @functools.cache
     def built(name: str) -> Build:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("WRAPIT_CACHE", str(shared))
+            patch.setenv("WRAPIT_CACHE", str(shared_cache))
             return build(CONFIGS / f"{name}.yaml", tmp_path_factory.mktemp("pieces") / name)
 
     return built

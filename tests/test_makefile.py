@@ -17,6 +17,9 @@ import pytest
 from tests.conftest import CONFIGS
 from wrapit.pipeline.work import Stage
 
+# To make it is all one whether wrapit builds or recalls.
+pytestmark = pytest.mark.usefixtures("recalling")
+
 ROOT = Path(__file__).parent.parent
 # A bitmap and an SVG: make knows no more of a piece than its files.
 PIECES = {"leaf": "leaf.png", "celtic-knot": "celtic-knot.svg"}

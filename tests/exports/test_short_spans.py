@@ -53,7 +53,9 @@ def lengths_of(entity: DXFGraphic) -> list[float]:
 
 
 @pytest.fixture(scope="module", params=NAMES)
-def plates(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+def plates(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, recalling: None
+) -> list[Path]:
     """The laser's sheets of one of the project's own pieces."""
     folder = tmp_path_factory.mktemp(request.param)
     build(CONFIGS / f"{request.param}.yaml", folder / "out", ("outputs=[dxf]", "jigs=[sheet]"))

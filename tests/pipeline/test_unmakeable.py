@@ -39,7 +39,7 @@ SIZES = {"tiny": "4 mm", "dense": "25 mm"}
 
 @pytest.fixture(scope="module", params=list(DRAWINGS))
 def refused_piece(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, recalling: None
 ) -> tuple[Path, str]:
     """A config, and the line that refuses it."""
     folder = tmp_path_factory.mktemp(request.param)

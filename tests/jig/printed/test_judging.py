@@ -52,6 +52,7 @@ def test_a_wire_in_the_plate_is_noticed(jig: tuple[Made, Wires]) -> None:
         judged(made, wires, thicker)
 
 
+@pytest.mark.usefixtures("recalling")
 @pytest.mark.parametrize("name", OPENED)
 def test_our_pieces_are_judged(name: str) -> None:
     report = check(CONFIGS / f"{name}.yaml", ["jigs=[printed]"], exact=True).report
