@@ -53,10 +53,9 @@ def lengths_of(entity: DXFGraphic) -> list[float]:
 
 
 @pytest.fixture(scope="module", params=NAMES)
-def plates(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, recalling: None
-) -> list[Path]:
+def plates(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     """The laser's sheets of one of the project's own pieces."""
+    request.getfixturevalue("recalling")
     folder = tmp_path_factory.mktemp(request.param)
     build(CONFIGS / f"{request.param}.yaml", folder / "out", ("outputs=[dxf]", "jigs=[sheet]"))
     return sorted((folder / "out").glob("plate-*.dxf"))

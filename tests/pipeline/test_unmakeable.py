@@ -39,9 +39,10 @@ SIZES = {"tiny": "4 mm", "dense": "25 mm"}
 
 @pytest.fixture(scope="module", params=list(DRAWINGS))
 def refused_piece(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, recalling: None
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Path, str]:
     """A config, and the line that refuses it."""
+    request.getfixturevalue("recalling")
     folder = tmp_path_factory.mktemp(request.param)
     (folder / "piece.svg").write_text(SVG.format("".join(map(STROKE.format, DRAWINGS[request.param]))))
     config = folder / "piece.yaml"
