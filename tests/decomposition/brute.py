@@ -23,12 +23,14 @@ def energy_by_definition(graph: Graph, mate: Sequence[int], weights: Weights) ->
         touched = {j for j in mine for k, other in enumerate(at) if k != i and j in other}
         weak += len(touched) == 1
     bends = sum(_bend(graph, a, b) for a, b in enumerate(mate) if a < b)
-    used = sum(e in graph.bridges for wire in wires for e in wire)
-    return len(wires) + weights.smoothness * bends + weights.robustness * weak + weights.bridges * used
+    used = set().union(*wires)
+    optional = weights.bridges * len(used & graph.bridges)
+    optional += weights.doubling * sum(run.cost for e, run in graph.second_runs.items() if e in used)
+    return len(wires) + weights.smoothness * bends + weights.robustness * weak + optional
 
 
 def wires_of(graph: Graph, mate: Sequence[int]) -> list[set[int]] | None:
-    """Segment sets of the wires, None where there is a ring; a bridge that joins nothing is no wire."""
+    """Segment sets of the wires, None where there is a ring; what is optional and joins nothing is none."""
     count = len(graph.junction_of) // 2
     wires = []
     left = {e for e in range(count) if e not in graph.optional or mate[2 * e] >= 0 or mate[2 * e + 1] >= 0}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def some_rules(graph: Graph, rng: np.random.Generator) -> Rules:
         forbidden=frozenset(pick(pairs, 1.0)),
         required=tuple((pair,) for pair in pick(pairs, 0.5)),
         ends=pick([ends for ends in graph.incident if ends], 0.7),
-        same=pick(couples, 0.6),
+        same=tuple(((e,), (f,)) for e, f in pick(couples, 0.6)),
         apart=pick(couples, 0.6),
         longest_mm=longest,
     )
@@ -50,7 +51,9 @@ def obeys(graph: Graph, rules: Rules, mate: Sequence[int]) -> bool:
         all(mate[a] != b for a, b in rules.forbidden)
         and all(any(mate[a] == b for a, b in group) for group in rules.required)
         and all(any(mate[h] < 0 and h // 2 in used for h in ends) for ends in rules.ends)
-        and all(e in used and wire_of[e] == wire_of.get(f) for e, f in rules.same)
+        and all(
+            any(wire.issuperset(runs) for wire in wires for runs in product(*lines)) for lines in rules.same
+        )
         and all(wire_of.get(e, -1) != wire_of.get(f, -2) for e, f in rules.apart)
         and (
             rules.longest_mm is None

@@ -65,10 +65,12 @@ def test_the_best_of_the_whole_are_combinations_of_the_best_of_each(count: int) 
 
 
 def test_rules_go_with_their_segments() -> None:
-    rules = Rules(forbidden=frozenset({(0, 4), (2, 8)}), same=((0, 2),), apart=((1, 4),), longest_mm=7.0)
+    rules = Rules(
+        forbidden=frozenset({(0, 4), (2, 8)}), same=(((0,), (2,)),), apart=((1, 4),), longest_mm=7.0
+    )
     ruled = Problem(CORNERS.graph, Weights(), rules)
     first, second, last = (ruled.part(part).rules for part in PARTS)
-    assert (first.forbidden, first.same, first.apart) == ({(0, 2)}, ((0, 1),), ())
+    assert (first.forbidden, first.same, first.apart) == ({(0, 2)}, (((0,), (1,)),), ())
     assert (second.forbidden, second.same, second.apart) == ({(0, 2)}, (), ((0, 1),))
     assert last == Rules(longest_mm=7.0)
 

@@ -27,7 +27,7 @@ def rules_of(
     forbidden: set[Pair] = set()
     required: list[tuple[Pair, ...]] = []
     ends: list[tuple[int, ...]] = []
-    same: list[Pair] = []
+    same: list[tuple[tuple[int, ...], ...]] = []
     apart: list[Pair] = []
     longest_mm: float | None = None
     for index, constraint in enumerate(constraints):
@@ -35,8 +35,7 @@ def rules_of(
         if constraint.same_wire is not None:
             _check_segments(graph, constraint.same_wire, where)
             _check_one_piece(graph, constraint.same_wire, bridges, where)
-            first, *rest = constraint.same_wire
-            same += [(first, other) for other in rest]
+            same.append(tuple(_runs(graph, e) for e in constraint.same_wire))
         elif constraint.different_wire is not None:
             _check_segments(graph, constraint.different_wire, where)
             apart += [
@@ -67,9 +66,9 @@ def rules_of(
     )
 
 
-def _runs(graph: Graph, e: int) -> list[int]:
+def _runs(graph: Graph, e: int) -> tuple[int, ...]:
     """A segment, and its second run where one is offered."""
-    return [e, *(other for other, run in graph.second_runs.items() if run.segment == e)]
+    return (e, *(other for other, run in graph.second_runs.items() if run.segment == e))
 
 
 def _check_segments(graph: Graph, segments: Sequence[int], where: str) -> None:

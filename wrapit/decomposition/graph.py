@@ -70,6 +70,12 @@ class Graph:
         return tuple(map(tuple, incident))
 
     @cached_property
+    def piece_of(self) -> tuple[int, ...]:
+        """For each segment, the number of the connected piece that it belongs to."""
+        number = {e: index for index, piece in enumerate(pieces(self)) for e in piece}
+        return tuple(number[e] for e in range(self.segments))
+
+    @cached_property
     def directions(self) -> list[tuple[float, float]]:
         """The tangents as plain numbers, which are quicker to read one by one."""
         return [(x, y) for x, y in self.tangents.tolist()]

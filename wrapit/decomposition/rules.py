@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -14,14 +15,15 @@ class Rules:
     """Conditions on a matching; pairs are sorted half-edges.
 
     `forbidden` transitions never happen; of each group in `required` one does; at one of each group
-    of half-edges in `ends` a wire ends; `same` segments lie on one wire, `apart` segments on two; no
-    wire is longer than `longest_mm`, and there are no more than `most_wires`.
+    of half-edges in `ends` a wire ends; of the lines of each group in `same` one wire has them all,
+    each by any of its runs; `apart` segments lie on two wires; no wire is longer than `longest_mm`, and no
+    connected piece has more than `most_wires`.
     """
 
     forbidden: frozenset[Pair] = frozenset()
     required: tuple[tuple[Pair, ...], ...] = ()
     ends: tuple[tuple[int, ...], ...] = ()
-    same: tuple[Pair, ...] = ()
+    same: tuple[tuple[tuple[int, ...], ...], ...] = ()
     apart: tuple[Pair, ...] = ()
     longest_mm: float | None = None
     most_wires: int | None = None
@@ -32,8 +34,9 @@ class Rules:
         def pairs(group: Iterable[Pair]) -> Iterator[Pair]:
             return ((number[a], number[b]) for a, b in group if a in number and b in number)
 
-        def segments(group: Iterable[Pair]) -> Iterator[Pair]:
-            return ((a // 2, b // 2) for a, b in pairs((2 * e, 2 * f) for e, f in group))
+        def runs(lines: Iterable[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
+            kept = (tuple(number[2 * e] // 2 for e in line if 2 * e in number) for line in lines)
+            return tuple(line for line in kept if line)
 
         return Rules(
             forbidden=frozenset(pairs(self.forbidden)),
@@ -43,8 +46,8 @@ class Rules:
                 for group in (tuple(number[h] for h in ends if h in number) for ends in self.ends)
                 if group
             ),
-            same=tuple(segments(self.same)),
-            apart=tuple(segments(self.apart)),
+            same=tuple(lines for lines in map(runs, self.same) if len(lines) > 1),
+            apart=tuple((a // 2, b // 2) for a, b in pairs((2 * e, 2 * f) for e, f in self.apart)),
             longest_mm=self.longest_mm,
             most_wires=self.most_wires,
         )
@@ -65,18 +68,19 @@ def broken(graph: Graph, rules: Rules, mate: Sequence[int]) -> int:
     count += sum(all(mate[a] != b for a, b in group) for group in rules.required)
     for ends in rules.ends:
         count += not any(mate[h] == NO_MATE and in_use(graph, mate, h >> 1) for h in ends)
-    count += sum(f not in wire_through(mate, e) for e, f in rules.same)
+    count += sum(min(len(missed) for _, missed in wires_and_missed(mate, lines)) for lines in rules.same)
     count += sum(f in wire_through(mate, e) for e, f in rules.apart)
     if rules.longest_mm is not None:
         count += sum(length > rules.longest_mm + SLACK_MM for length in _lengths(graph, mate))
     if rules.most_wires is not None:
-        count += max(0, wires(graph, mate) - rules.most_wires)
+        count += sum(max(0, n - rules.most_wires) for n in wires_of_pieces(graph, mate).values())
     return count
 
 
-def wires(graph: Graph, mate: Sequence[int]) -> int:
-    """How many wires a matching without rings makes: half the half-edges in use without a mate."""
-    return sum(other == NO_MATE and in_use(graph, mate, h >> 1) for h, other in enumerate(mate)) // 2
+def wires_of_pieces(graph: Graph, mate: Sequence[int]) -> dict[int, int]:
+    """How many wires a matching without rings makes of each connected piece: half the ends in use."""
+    free = (h >> 1 for h, other in enumerate(mate) if other == NO_MATE and in_use(graph, mate, h >> 1))
+    return {piece: ends // 2 for piece, ends in Counter(graph.piece_of[e] for e in free).items()}
 
 
 def in_use(graph: Graph, mate: Sequence[int], e: int) -> bool:
@@ -94,6 +98,14 @@ def wire_through(mate: Sequence[int], e: int) -> set[int]:
             segments.add(x >> 1)
             x = mate[x ^ 1]
     return segments
+
+
+def wires_and_missed(
+    mate: Sequence[int], lines: Sequence[tuple[int, ...]]
+) -> list[tuple[set[int], list[tuple[int, ...]]]]:
+    """The wire through each run of the first of these lines, and those of the lines that it has no run of."""
+    wires_there = [wire_through(mate, e) for e in lines[0]]
+    return [(wire, [line for line in lines if wire.isdisjoint(line)]) for wire in wires_there]
 
 
 def _lengths(graph: Graph, mate: Sequence[int]) -> Iterator[float]:

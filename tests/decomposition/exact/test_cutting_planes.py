@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,11 +13,13 @@ from hypothesis import strategies as st
 
 from tests.decomposition.brute import all_matchings, wires_of
 from tests.decomposition.cases import closed_up, connected, obeys, some_rules, with_some_bridges
+from tests.decomposition.second_runs_judge import grants, matchings, posed
 from wrapit.decomposition.energy import contacts_of
 from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import Weights, half_edges
 from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.rules import broken
 from wrapit.decomposition.trails import trails_of
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
@@ -24,9 +28,14 @@ SMALL = {"seed": st.integers(0, 10**9), "segments": st.integers(2, 5), "junction
 
 def excess(cut: Cut, graph: Graph, mate: Sequence[int]) -> float:
     """How far a matching breaks an inequality, with the variables at what they stand for."""
+    return excess_at(cut, mate) - (cut.weak in weak_wires(graph, mate))
+
+
+def excess_at(cut: Cut, mate: Sequence[int]) -> float:
+    """The same, where weak wires don't count."""
     left = sum(cut.transitions.get((a, b), 0.0) for a, b in enumerate(mate) if a < b)
     left += sum(c for e, c in cut.used.items() if any(mate[h] >= 0 for h in half_edges(e)))
-    return left - (cut.weak in weak_wires(graph, mate)) - cut.limit
+    return left - cut.limit
 
 
 def weak_wires(graph: Graph, mate: Sequence[int]) -> set[tuple[tuple[int, ...], int]]:
@@ -98,6 +107,24 @@ def test_what_keeps_the_rules_is_never_cut_off(
         for cut in rule_cuts(Problem(graph, WEIGHTS, rules), mate):
             assert excess(cut, graph, mate) > 1e-9
             assert all(excess(cut, graph, other) <= 1e-9 for other in free if obeys(graph, rules, other))
+
+
+@pytest.mark.parametrize("bridged", [False, True])
+def test_what_is_as_wished_with_second_runs_is_never_cut_off(bridged: bool) -> None:
+    cases = (posed(seed, 4, bridged=bridged, wished=True) for seed in itertools.count())
+    few = ((problem, wishes) for problem, wishes in cases if wishes and matchings(problem.graph) < 800)
+    cut = 0
+    for number, (problem, wishes) in enumerate(itertools.islice(few, 60)):
+        graph = problem.graph
+        ringed, free = some_matchings(graph, number)
+        wished = [mate for mate in free if grants(graph, wishes, None, mate)]
+        assert all(broken(graph, replace(problem.rules, most_wires=None), mate) == 0 for mate in wished)
+        for mate in [*free[:10], *ringed[:10]]:
+            for each in [*ring_cuts(graph, mate), *(rule_cuts(problem, mate) if mate in free else [])]:
+                cut += 1
+                assert excess_at(each, mate) > 1e-9
+                assert all(excess_at(each, other) <= 1e-9 for other in wished)
+    assert cut > 100
 
 
 @settings(deadline=None, max_examples=60)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,10 +11,12 @@ from hypothesis import strategies as st
 
 from tests.bench.graphs import FAMILIES, random_multigraph
 from tests.decomposition.brute import energy_by_definition
+from tests.decomposition.second_runs_judge import posed
 from wrapit.decomposition.energy import energy_of
 from wrapit.decomposition.local_moves.matching_state import Wires
-from wrapit.decomposition.model import Weights
+from wrapit.decomposition.model import NO_MATE, Weights, half_edges
 from wrapit.decomposition.problem import Problem
+from wrapit.decomposition.rules import NO_RULES
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
 
@@ -43,4 +47,26 @@ def test_bridges_keep_the_running_energy_right(seed: int, segments: int) -> None
         if pick < 0.1:
             wires.drop(0, 2.0)
         expected = energy_by_definition(graph, wires.mate, WEIGHTS)
+        assert wires.energy == pytest.approx(expected, abs=1e-9)
+
+
+@settings(deadline=None, max_examples=40)
+@given(seed=st.integers(0, 10**6), bridged=st.booleans())
+def test_second_runs_keep_the_running_energy_right(seed: int, bridged: bool) -> None:
+    problem = posed(seed, 6, bridged=bridged)[0]
+    problem = replace(problem, rules=NO_RULES)  # what a broken rule adds isn't energy
+    graph, rng = problem.graph, np.random.default_rng(seed)
+    wires = Wires(problem)
+    for a, pick in zip(rng.integers(2 * graph.segments, size=200).tolist(), rng.random(200), strict=True):
+        partners = wires.partners[a]
+        if partners and pick < 0.7:
+            wires.toggle(a, partners[int(pick / 0.7 * len(partners))], 2.0)
+        elif wires.second_runs:
+            e = wires.second_runs[a % len(wires.second_runs)]
+            first, last = (wires.partners[h] for h in half_edges(e))
+            if wires.mate[2 * e] != NO_MATE or wires.mate[2 * e + 1] != NO_MATE:
+                wires.drop(e, 2.0)
+            elif first and last:
+                wires.use(2 * e, first[a % len(first)], 2 * e + 1, last[a % len(last)], 2.0)
+        expected = energy_by_definition(graph, wires.mate, problem.weights)
         assert wires.energy == pytest.approx(expected, abs=1e-9)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, field
 
 from wrapit.decomposition.energy import contacts_of
@@ -11,7 +11,7 @@ from wrapit.decomposition.exact.ring_bound import ring_of
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, Pair, half_edges, ordered
 from wrapit.decomposition.problem import Problem
-from wrapit.decomposition.rules import SLACK_MM, in_use, wire_through
+from wrapit.decomposition.rules import SLACK_MM, in_use, wire_through, wires_and_missed
 from wrapit.decomposition.trails import trails_of, walk
 
 Weak = tuple[tuple[int, ...], int]
@@ -36,16 +36,11 @@ def ring_cuts(graph: Graph, mate: Sequence[int]) -> Iterator[Cut]:
     nodes, rings = ring_of(mate)
     for ring in range(1, rings + 1):
         on_it = {h >> 1 for h, node in enumerate(nodes) if node == ring}
-        spare = {
-            e
-            for e, run in graph.second_runs.items()
-            if run.segment in on_it and e not in on_it and not in_use(graph, mate, e)
-        }
         # One transition less than segments in use, of which one at least always is.
         certain = on_it - graph.optional
-        some = on_it | spare if certain else on_it
+        some = on_it | _spare(graph, mate, on_it) if certain else on_it
         used = dict.fromkeys(sorted(some & graph.optional), -1.0) if certain else {}
-        inside = {h for e in some for h in half_edges(e)}
+        inside = _ends_of(some)
         yield Cut(dict.fromkeys(_within(graph, inside), 1.0), len(certain or on_it) - 1.0, used)
     if rings > 1:
         yield _partition_cut(graph, nodes, rings)
@@ -70,7 +65,7 @@ def weak_cuts(
         if (segments, junction, tie) in paid:
             continue
         paid.add((segments, junction, tie))
-        inside = {h for e in segments for h in half_edges(e)}
+        inside = _ends_of(segments)
         transitions = dict.fromkeys(_within(graph, inside), 1.0) | dict.fromkeys(_across(graph, inside), -1.0)
         junctions = {graph.junction_of[h] for h in inside} - {junction}
         used = {
@@ -89,10 +84,11 @@ def weak_cuts(
 def rule_cuts(problem: Problem, mate: Sequence[int]) -> Iterator[Cut]:
     """For each rule that a matching breaks and that no row of the programme states from the start."""
     graph, rules = problem.graph, problem.rules
-    for e, f in rules.same:
-        wire = wire_through(mate, e)
-        if f not in wire:
-            across = _across(graph, {h for s in wire for h in half_edges(s)})
+    for lines in rules.same:
+        found = wires_and_missed(mate, lines)
+        if all(missed for _, missed in found):
+            # Whichever run of the first line the wire has, it goes on to what is missed there.
+            across = [pair for wire, _ in found for pair in _across(graph, _ends_of(wire))]
             yield Cut(dict.fromkeys(across, -1.0), -1.0)
     if rules.longest_mm is not None:
         yield from _length_cuts(graph, mate, rules.longest_mm)
@@ -122,7 +118,7 @@ def exclusion_cut(graph: Graph, mate: Sequence[int]) -> Cut:
 
 
 def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterator[Cut]:
-    """Segments of a total length need so many wires; or, with optional ones, just not this walk."""
+    """Segments of a total length need so many wires, and those of a wire that is too long more than one."""
     seen: set[int] = set()
     for e in range(graph.segments):
         if e in seen or not in_use(graph, mate, e):
@@ -131,18 +127,23 @@ def _length_cuts(graph: Graph, mate: Sequence[int], longest_mm: float) -> Iterat
         seen |= wire
         if sum(graph.lengths_mm[f] for f in sorted(wire)) <= longest_mm + SLACK_MM:
             continue
-        inside = {h for f in wire for h in half_edges(f)}
-        strokes = sum(graph.lengths_mm[f] for f in sorted(wire - graph.optional))
-        needed = math.ceil(strokes / longest_mm - 1e-9)
+        some, longest = wire | _spare(graph, mate, wire), longest_mm + SLACK_MM
+        share = {e: graph.lengths_mm[e] / longest for e in sorted(some)}
+        certain = some - graph.optional
+        # As many wires as the length of what is in use needs, as a fraction; and in whole numbers what is
+        # certain needs, or that all of this isn't one wire.
+        yield Cut(
+            dict.fromkeys(_within(graph, _ends_of(some)), 1.0),
+            len(certain) - sum(share[e] for e in sorted(certain)),
+            {e: share[e] - 1.0 for e in sorted(some & graph.optional)},
+        )
+        within = dict.fromkeys(_within(graph, _ends_of(wire)), 1.0)
+        needed = math.ceil(sum(share[e] for e in sorted(wire - graph.optional)) - 1e-9)
         if needed > 1:
-            yield Cut(
-                dict.fromkeys(_within(graph, inside), 1.0),
-                len(wire - graph.optional) - needed,
-                dict.fromkeys(sorted(wire & graph.optional), -1.0),
-            )
+            used = dict.fromkeys(sorted(wire & graph.optional), -1.0)
+            yield Cut(within, len(wire - graph.optional) - needed, used)
         else:
-            walk = {(h, mate[h]): 1.0 for h in sorted(inside) if h < mate[h]}
-            yield Cut(walk, len(walk) - 1.0)
+            yield Cut(within, len(wire) - 2.0)
 
 
 def _partition_cut(graph: Graph, nodes: Sequence[int], rings: int) -> Cut:
@@ -172,6 +173,17 @@ def _only_tie(graph: Graph, mate: Sequence[int], segments: Sequence[int], juncti
     if any(e not in graph.optional for e in others):
         return None
     return min(e for e in others if in_use(graph, mate, e))
+
+
+def _spare(graph: Graph, mate: Sequence[int], segments: Set[int]) -> set[int]:
+    """The second runs of these segments that aren't in use."""
+    return {
+        e for e, run in graph.second_runs.items() if run.segment in segments and not in_use(graph, mate, e)
+    }
+
+
+def _ends_of(segments: Iterable[int]) -> set[int]:
+    return {h for e in segments for h in half_edges(e)}
 
 
 def _within(graph: Graph, inside: set[int]) -> list[Pair]:

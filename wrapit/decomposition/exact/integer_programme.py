@@ -10,9 +10,11 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from wrapit.decomposition.exact.chosen_segments import used_in, with_chosen
-from wrapit.decomposition.exact.cutting_planes import Cut, exclusion_cut, ring_cuts, rule_cuts, weak_cuts
+from wrapit.decomposition.exact.cutting_planes import ring_cuts, rule_cuts, weak_cuts
 from wrapit.decomposition.exact.junction_matching import LocalCosts
+from wrapit.decomposition.exact.other_answers import Others, exclusion_cuts
 from wrapit.decomposition.exact.ring_bound import open_rings, ring_of
+from wrapit.decomposition.graph import pieces
 from wrapit.decomposition.local_moves.matching_state import descended
 from wrapit.decomposition.model import NO_MATE, half_edges, ordered
 from wrapit.decomposition.problem import CLOSE, Answer, Problem
@@ -37,9 +39,9 @@ def solve_by_cuts(
     the answer depends on nothing but the problem. Beyond it, the best matching so far is returned
     with the bound that was proved.
     """
-    excluded = [exclusion_cut(problem.graph, mate) for mate in others]
-    model = _Model(problem, excluded)
-    best = known.mate if _fits(problem, known.mate, excluded) else None
+    found = Others(problem.graph, others)
+    model = _Model(problem, found)
+    best = known.mate if _fits(problem, known.mate, found) else None
     least = problem.energy(best).total if best else float("inf")
     bound, rounds, spent = known.lower_bound or 0.0, known.iterations, 0
     while least - bound > CLOSE and spent < budget:
@@ -56,7 +58,7 @@ def solve_by_cuts(
             break
         mate = model.matching(optimum)
         for candidate in _repaired(problem, mate):
-            if not _fits(problem, candidate, excluded):
+            if not _fits(problem, candidate, found):
                 continue
             energy = problem.energy(candidate).total
             if energy < least - CLOSE:
@@ -80,23 +82,19 @@ def _repaired(problem: Problem, mate: Sequence[int]) -> Iterator[list[int]]:
         yield descended(problem, repaired)
 
 
-def _fits(problem: Problem, mate: Sequence[int], excluded: Sequence[Cut]) -> bool:
-    if not problem.is_allowed(mate):
-        return False
-    return all(
-        sum(cut.transitions.get((a, b), 0.0) for a, b in enumerate(mate) if a < b) <= cut.limit + 1e-9
-        for cut in excluded
-    )
+def _fits(problem: Problem, mate: Sequence[int], found: Others) -> bool:
+    return problem.is_allowed(mate) and not found.have(mate)
 
 
 class _Model:
     """The inequalities so far, and the junctions that they are about."""
 
-    def __init__(self, problem: Problem, excluded: Sequence[Cut]) -> None:
+    def __init__(self, problem: Problem, found: Others) -> None:
         self._problem = problem
         self._graph = problem.graph
         self._costs = LocalCosts(problem)
-        self._cuts = list(excluded)
+        self._found = found
+        self._cuts = list(found.cuts)
         self._paid: set[tuple[tuple[int, ...], int, int | None]] = set()
         self._active = self._ruled_junctions()
 
@@ -145,6 +143,8 @@ class _Model:
         cuts = [*ring_cuts(self._graph, mate), *rule_cuts(self._problem, mate)]
         if not ring_of(mate)[1]:
             cuts += weak_cuts(self._problem, mate, self._paid)
+            if self._found.have(mate):
+                cuts += exclusion_cuts(self._graph, mate)
         for cut in cuts:
             self._active |= {self._graph.junction_of[a] for a, _ in cut.transitions}
         self._cuts += cuts
@@ -187,13 +187,16 @@ class _Model:
     def _add_rules(self, programme: Programme) -> None:
         graph, rules, pair = self._graph, self._problem.rules, self._costs.pair
         if rules.most_wires is not None:
-            wires: dict[Name, float] = {(a, b): -1.0 for a, mates in enumerate(pair) for b in mates if a < b}
-            wires |= {("used", e): 1.0 for e in graph.optional}
-            programme.add_row(wires, high=rules.most_wires - graph.segments + len(graph.optional))
+            for piece in pieces(graph):
+                inside = [h for e in piece for h in half_edges(e)]
+                row: dict[Name, float] = {(a, b): -1.0 for a in inside for b in pair[a] if a < b}
+                row |= {("used", e): 1.0 for e in piece if e in graph.optional}
+                strokes = sum(e not in graph.optional for e in piece)
+                programme.add_row(row, high=float(rules.most_wires - strokes))
         for group in rules.required:
             programme.add_row(dict.fromkeys(group, 1.0), low=1.0)
         for ends in rules.ends:
-            row: dict[Name, float] = {(a, b): 2.0 for a in ends for b in pair[a] if a < b}
+            row = {(a, b): 2.0 for a in ends for b in pair[a] if a < b}
             row |= {("used", h >> 1): -1.0 for h in ends if h >> 1 in graph.optional}
             programme.add_row(row, high=sum(h >> 1 not in graph.optional for h in ends) - 1.0)
         for v, _ in mirrored_junctions(graph, self._problem.mirror):

@@ -7,14 +7,20 @@ from collections.abc import Sequence
 from wrapit.decomposition.exact.branch_and_bound import certified
 from wrapit.decomposition.exact.chosen_segments import with_chosen
 from wrapit.decomposition.exact.postman import least_second_runs
+from wrapit.decomposition.graph import pieces
 from wrapit.decomposition.problem import CLOSE, Answer, Problem
 
 
 def _improved(problem: Problem, known: Answer, most_wires: int) -> Answer:
     """What is known, or what the postman's second runs give if that is allowed and better."""
-    used, price = least_second_runs(problem, most_wires)
+    used: set[int] = set()
+    least = 0.0
+    for piece in pieces(problem.graph):
+        chosen, price = least_second_runs(problem.part(piece), most_wires)
+        used |= {piece[e] for e in chosen}
+        least += 1.0 + price
     mate = tuple(with_chosen(problem, used))
-    bound = max(known.lower_bound or 0.0, 1.0 + price)
+    bound = max(known.lower_bound or 0.0, least)
     if problem.is_allowed(known.mate) and problem.energy(known.mate).total <= problem.energy(mate).total:
         mate = known.mate
     return Answer(mate, known.iterations, bound, problem.energy(mate).total - bound < CLOSE)
