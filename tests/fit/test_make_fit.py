@@ -139,7 +139,7 @@ def test_a_ring_whose_window_over_the_start_is_cut_beyond_it_comes_back() -> Non
 
 
 def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself() -> None:
-    """Three in four of a fixed list: where twins run along one another, one is led into the other."""
+    """All but three of a fixed list: where twins run along one another, one is led into the other."""
     alike, asked = 0, 0
     for number, kind in enumerate(("net", "comb", "tips", "scribble", "tree") * 3):
         size_mm, gauge, level = ((25.0, 22, "gentle"), (50.0, 18, "bold"), (80.0, 20, "bold"))[number % 3]
@@ -151,8 +151,8 @@ def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself()
         result, _ = make_fit(centred, config(level, gauge))
         asked += 1
         alike += apart_mm(result.drawing, mapped(result.drawing, FLIP)) < 0.05
-    assert asked >= 12
-    assert alike >= 0.75 * asked
+    assert asked >= 14
+    assert alike >= asked - 3
 
 
 def moved(drawing: Drawing, by: FloatArray) -> Drawing:
