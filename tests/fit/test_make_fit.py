@@ -117,22 +117,29 @@ def test_every_place_that_is_no_longer_there_is_told(kind, seed, size_mm, gauge,
         assert (np.hypot(*(at - place).T) <= reach).any(), place
 
 
-@settings(MODEST, max_examples=5)
-@given(st.sampled_from(["net", "comb", "tips", "scribble", "tree", "hairpin"]), seeds, sizes, gauges, levels)
-def test_what_is_mirrored_or_turned_comes_out_mirrored_or_turned(kind, seed, size_mm, gauge, level):
-    """However its parts are numbered, and which way its lines run.
-
-    Not asked of figures that look the same turned by half or moved on, as grates and ladders do: which of two
-    like places is first is then for their numbers to say.
-    """
+@settings(MODEST, max_examples=8)
+@given(kinds, seeds, sizes, gauges, levels, st.sampled_from([FLIP, TURN]))
+def test_what_is_mirrored_or_turned_comes_out_so_to_the_last_bit(kind, seed, size_mm, gauge, level, matrix):
+    """However its parts are numbered, and which way its lines run."""
     result, _ = fitted(kind, seed, size_mm, gauge, level)
-    for matrix in (FLIP, TURN):
-        image, _ = make_fit(mapped(result.original, matrix), config(level, gauge))
-        assert apart_mm(image.drawing, mapped(result.drawing, matrix)) < 0.05
+    image, _ = make_fit(mapped(result.original, matrix), config(level, gauge))
+    assert curves(image.drawing) == curves(mapped(result.drawing, matrix))
+
+
+def curves(drawing: Drawing) -> list[list[float]]:
+    """Those of all segments, however they are numbered and whichever way they run."""
+    every = [segment.curve.points for segment in drawing.segments]
+    return sorted(min(each.ravel().tolist(), each[::-1, ::-1].ravel().tolist()) for each in every)
+
+
+def test_a_ring_whose_window_over_the_start_is_cut_beyond_it_comes_back() -> None:
+    """It can't be widened, and that is told; there is no curve to be taken beyond its end."""
+    _, findings = make_fit(drawn("finger", 100, 25.0, twin=True), config("gentle", 16))
+    assert {finding.code for finding in findings} == {"unfit"}
 
 
 def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself() -> None:
-    """Three in four of a fixed list: where twins run along one another, one is led into the other."""
+    """All but three of a fixed list: where twins run along one another, one is led into the other."""
     alike, asked = 0, 0
     for number, kind in enumerate(("net", "comb", "tips", "scribble", "tree") * 3):
         size_mm, gauge, level = ((25.0, 22, "gentle"), (50.0, 18, "bold"), (80.0, 20, "bold"))[number % 3]
@@ -144,8 +151,8 @@ def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself()
         result, _ = make_fit(centred, config(level, gauge))
         asked += 1
         alike += apart_mm(result.drawing, mapped(result.drawing, FLIP)) < 0.05
-    assert asked >= 12
-    assert alike >= 0.75 * asked
+    assert asked >= 14
+    assert alike >= asked - 3
 
 
 def moved(drawing: Drawing, by: FloatArray) -> Drawing:

@@ -271,6 +271,15 @@ def test_a_long_way_of_tight_places_is_followed_in_parts(count: int, pitch: floa
     assert result.deviation < rise
 
 
+def test_a_window_over_the_start_of_a_ring_may_be_cut_beyond_it() -> None:
+    length, at = 60.0, [*np.arange(2.0, 24), *np.arange(52.0, 60)]
+    tight = [Tight(place, place, 0.5) for place in map(float, at)]
+    windows = Windows(np.array([0.0, length]), 1.0, closed=True, held=False).around(tight, np.ones(30))
+    assert len(windows) == 2
+    assert [window.start < length < window.end for window in windows] == [False, True]
+    assert 0 < windows[0].start == windows[1].end - length
+
+
 @settings(max_examples=40)
 @given(st.lists(st.tuples(st.floats(0.4, 4), st.floats(0.1, 3)), min_size=2, max_size=80), st.booleans())
 def test_windows_are_short_and_hold_each_tight_place_once(
@@ -285,6 +294,7 @@ def test_windows_are_short_and_hold_each_tight_place_once(
     assert max(window.length for window in windows) <= MOST
     for before, after in itertools.pairwise(windows):
         assert before.end <= after.start
+    assert all(0 <= window.start < length for window in windows)
     for window in windows:
         for n in window.spans:
             assert any(

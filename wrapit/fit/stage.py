@@ -12,6 +12,7 @@ from wrapit.fit.beading.beads import beaded
 from wrapit.fit.clearing import cleared
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import costs, measures
+from wrapit.fit.mirroring.posing import posed, unposed
 from wrapit.fit.model import Bead, Fitted, Level, Limits
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.smoothing import smoothed
@@ -60,9 +61,11 @@ def make_fit(drawing: Drawing, config: Config) -> tuple[Fitted, tuple[Finding, .
 
 
 def _fit(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) -> Sketch:
+    """The sketch made fit, in its pose; itself if nothing is to be done."""
+    done, pose = posed(sketch)
     for _ in range(_TURNS):
-        told = len(sketch.removed)
-        sketch = smoothed(cleared(sketch, limits, level, keep), limits)
-        if len(sketch.removed) == told:
+        told = len(done.removed)
+        done = smoothed(cleared(done, limits, level, keep), limits)
+        if len(done.removed) == told:
             break
-    return sketch
+    return sketch if len(done.removed) == len(sketch.removed) else unposed(done, pose)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from wrapit.geometry.arrays import FloatArray
@@ -81,6 +81,8 @@ class Windows:
         if self.closed:
             found = self._closed_up(found)
         cut = [part for window in found for part in self._cut(window, tight, whole)]
+        if self.closed:
+            cut = [self._round(part) for part in cut]  # one over the start may be cut beyond it
         return sorted(cut, key=lambda window: window.start)
 
     def _cut(self, window: Window, tight: list[Tight], whole: Collection[frozenset[int]]) -> list[Window]:
@@ -124,9 +126,9 @@ class Windows:
     def _round(self, window: Window) -> Window:
         """The window of a closed curve, started on it, and all of it if hardly anything is left."""
         if window.length >= self.length - SNAP * self.radius:
-            return Window(0.0, self.length, window.spans)
+            return replace(window, start=0.0, end=self.length)
         laps = math.floor(window.start / self.length) * self.length
-        return Window(window.start - laps, window.end - laps, window.spans)
+        return replace(window, start=window.start - laps, end=window.end - laps)
 
     def _snapped(self, at: float, side: int) -> float:
         """An end of a window, moved outward to a joint just beyond it; never beyond an open curve's ends."""
