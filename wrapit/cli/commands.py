@@ -84,7 +84,7 @@ def build(
     more: dict[str, str] = {}
     if alternatives > 1:
         more["alternatives"] = _command(configs, output, overrides, "--choose", "2")
-    if alternatives and len(front := result.report["fewer_wires"]) > 1:
+    if alternatives and len(front := result.report.get("fewer_wires", [])) > 1:
         least = f"decomposition.max_wires={front[-1]['max_wires']}"
         more["fewer wires"] = _command(configs, output, [*(overrides or ()), least])
     show(result, as_json, quiet, verbose, more)
