@@ -85,6 +85,14 @@ def test_the_command_that_takes_an_alternative_can_be_pasted(folder: Path) -> No
     lock = YAML(typ="safe").load((folder / "out put" / "config.lock.yaml").read_text())
     assert (lock["decomposition"]["choice"], lock["size"]) == (2, "40 mm")
     assert "alternatives:" not in wrapit("build", "my leaf.yaml", "--until", "drawing", cwd=folder).stdout
+    early = wrapit("build", "my leaf.yaml", "--until", "drawing", "--alternatives", "2", cwd=folder)
+    assert (early.returncode, "fewer wires" in early.stdout) == (0, False), early.stderr
+    line = next(line for line in first.stdout.splitlines() if line.startswith("fewer wires: "))
+    picture, _, command = line.removeprefix("fewer wires: ").partition("; take the fewest with: ")
+    assert (folder / picture).name == "fewer-wires.svg"
+    fewest = run([*shlex.split(command), "--until", "decomposition", "--json"], folder)
+    assert fewest.returncode == 0, fewest.stderr
+    assert json.loads(fewest.stdout)["decomposition"]["energy"]["complexity"] == 1
 
 
 def test_a_choice_that_there_is_not(folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -405,6 +406,47 @@ def test_every_part_fits_every_screen_and_is_open_to_all(page: Page) -> None:
             page.emulate_media(color_scheme=scheme)
             found = axe.run(page, options={"iframes": False})
             assert found.violations_count == 0, (name, scheme, found.generate_report())
+
+
+def test_fewer_wires_are_taken_by_keyboard(page: Page, studio: Studio) -> None:
+    lines = CONFIG + "decomposition:  # ours\n  seed: 2  # lucky\n"
+    studio.config.write_text(lines, encoding="utf-8")
+    page.get_by_text("How it is divided").click()
+    slider = page.get_by_label("Fewest wires", exact=True)
+    expect(slider).to_be_disabled()
+    look = page.get_by_role("button", name="Show what fewer wires cost")
+    look.focus()
+    page.keyboard.press("Enter")
+    rows = page.locator(".costs tbody tr")
+    expect(rows).to_have_count(3, timeout=PATIENCE_MS)
+    expect(look).to_be_hidden()
+    expect(slider).to_be_focused()
+    costs = studio.state()["fewer_wires"]
+    assert [each["max_wires"] for each in costs] == [None, 2, 1]
+    expect(slider).to_have_attribute("aria-valuetext", re.compile("^3 wires, 0 mm run twice, bends "))
+    page.keyboard.press("Home")
+    expect(slider).to_have_attribute(
+        "aria-valuetext", re.compile(f"^1 wire, {costs[2]['doubled_mm']:.0f} mm")
+    )
+    expect(page.locator("#numbers h2")).to_have_text("1 wire", timeout=PATIENCE_MS)
+    assert studio.config.read_text("utf-8") == lines + "  max_wires: 1\n"
+    expect(slider).to_have_value("0")
+    expect(rows.locator("nth=0")).to_have_attribute("aria-current", "true")
+    page.keyboard.press("ArrowRight")
+    expect(page.locator("#numbers h2")).to_have_text("2 wires", timeout=PATIENCE_MS)
+    assert studio.config.read_text("utf-8") == lines + "  max_wires: 2\n"
+    for width in WIDTHS:
+        page.set_viewport_size({"width": width, "height": 900})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, width
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        found = Axe().run(page, options={"iframes": False})
+        assert found.violations_count == 0, (scheme, found.generate_report())
+    page.get_by_role("button", name="Undo").click()
+    expect(slider).to_have_value("0")
+    page.get_by_role("button", name="Undo").click()
+    expect(slider).to_have_value("2")
+    assert studio.config.read_text("utf-8") == lines
 
 
 def test_a_text_under_way_is_kept_until_one_is_chosen(page: Page, studio: Studio) -> None:

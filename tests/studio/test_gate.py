@@ -186,7 +186,7 @@ def test_a_body_without_end_is_refused(studio: Studio, length: int) -> None:
 
 
 @pytest.mark.parametrize("body", [b"", b"{", b"\xff", b"[" * 100_000, b"nope"])
-@pytest.mark.parametrize("target", ["/change", "/text", "/undo", "/alternatives"])
+@pytest.mark.parametrize("target", ["/change", "/text", "/undo", "/alternatives", "/fewer-wires"])
 def test_a_body_that_is_no_json_is_refused(studio: Studio, target: str, body: bytes) -> None:
     headers = studio.cookie | JSON | {"Origin": studio.origin}
     status, _, answer = studio.raw("POST", target, headers, body)

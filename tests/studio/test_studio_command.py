@@ -181,6 +181,21 @@ def test_alternatives_come_and_go_with_what_they_are_of(tmp_path: Path, change: 
         assert studio.state()["alternatives"] is None
 
 
+@pytest.mark.parametrize("change", [{"size": "75 mm"}, {"decomposition.weights.doubling": 0.5}])
+def test_what_fewer_wires_cost_stays_while_they_are_chosen(tmp_path: Path, change: dict[str, Any]) -> None:
+    with running(with_piece(tmp_path), "leaf.yaml") as studio:
+        studio.built()
+        assert studio.state()["fewer_wires"] is None
+        assert studio.post("/fewer-wires", {})[0] == 202
+        found = studio.until(lambda state: isinstance(state["fewer_wires"], list))["fewer_wires"]
+        assert [(each["max_wires"], each["wires"], each["doubled_mm"]) for each in found] == [(None, 1, 0)]
+        chosen = {"decomposition.max_wires": 1, "decomposition.doubling": True, "decomposition.choice": 1}
+        assert studio.post("/change", {"set": chosen})[0] == 200
+        assert studio.state()["fewer_wires"] == found
+        assert studio.post("/change", {"set": change})[0] == 200
+        assert studio.state()["fewer_wires"] is None
+
+
 def test_changes_amid_a_build_are_built_in_the_end(tmp_path: Path) -> None:
     with running(with_piece(tmp_path), "leaf.yaml") as studio:
         for size in (51, 52, 53, 54):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -100,10 +100,10 @@ def with_progress(run: Callable[[Callable[[str], None]], Build], quiet: bool) ->
         return run(told)
 
 
-def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: str = "") -> None:
+def show(result: Build, as_json: bool, quiet: bool, verbose: int, take: Mapping[str, str] = {}) -> None:
     """Prints what a build made: the report as one document, or its summary and findings.
 
-    `take` is the command that builds one of its alternatives, where there are some.
+    `take` are commands that build it with other wires, by what they are.
     """
     if as_json:
         print(json.dumps({**result.report, "timings_s": result.timings}, allow_nan=False))

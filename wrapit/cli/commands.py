@@ -45,7 +45,12 @@ def build(
     force: Annotated[bool, typer.Option("--force", help="Build even if nothing changed.")] = False,
     alternatives: Annotated[
         int,
-        typer.Option(min=0, max=12, metavar="K", help="Also draw the K best ways to divide it into wires."),
+        typer.Option(
+            min=0,
+            max=12,
+            metavar="K",
+            help="Also draw the K best ways to divide it into wires, and what fewer wires cost.",
+        ),
     ] = 0,
     choose: Annotated[
         int | None,
@@ -76,8 +81,13 @@ def build(
     )
     if depfile is not None:
         _write_depfile(depfile, result)
-    take = _command(configs, output, overrides, "--choose", "2") if alternatives > 1 else ""
-    show(result, as_json, quiet, verbose, take)
+    more: dict[str, str] = {}
+    if alternatives > 1:
+        more["alternatives"] = _command(configs, output, overrides, "--choose", "2")
+    if alternatives and len(front := result.report.get("fewer_wires", [])) > 1:
+        least = f"decomposition.max_wires={front[-1]['max_wires']}"
+        more["fewer wires"] = _command(configs, output, [*(overrides or ()), least])
+    show(result, as_json, quiet, verbose, more)
 
 
 def _command(configs: list[Path], output: Path | None, overrides: list[str] | None, *options: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -133,3 +134,10 @@ class Solution:
     optimal: bool = False
     bridges_used: tuple[int, ...] = ()
     doubled: tuple[int, ...] = ()
+
+    @property
+    def doubled_mm(self) -> float:
+        """Length that wires run along once more, after they or others have run along it."""
+        segments = self.decomposition.drawing.segments
+        runs = Counter(each.segment for trail in self.trails for each in trail.traversals)
+        return sum((count - 1) * segments[e].curve.length for e, count in runs.items())

@@ -52,15 +52,11 @@ def decompose(
     if config.choice > 1:
         return _chosen(drawing, config, room)
     drawing, problem = _posed(drawing, config, room)
-    rng = np.random.default_rng(config.seed)
-    solver = SOLVERS[config.solver]
-    answer = solve_piecewise(
-        problem, parts_of(problem, config.bridges), lambda part: solver.solve(part, config, rng)
-    )
-    if answer is None or not problem.is_allowed(answer.mate):
+    answer = _answer(problem, config)
+    if answer is None:
         raise _refusal(problem, config)
     solution = _solution(drawing, problem, answer, config, config.solver)
-    return solution, findings_of(problem.graph, solution, room, solver.proves_more)
+    return solution, findings_of(problem.graph, solution, room, SOLVERS[config.solver].proves_more)
 
 
 def alternatives(
@@ -81,23 +77,38 @@ def front(
 ) -> tuple[Solution, ...]:
     """Wires against length run twice: the cheapest answer for each number of wires, the most wires first.
 
-    From the best without second runs down to one wire for each piece of the drawing; of more than
-    MOST_CHOICES numbers the least ones. Raises as `decompose` does.
+    From the best without second runs down to one wire for each piece of the drawing, or to as few as the
+    constraints allow; of more than MOST_CHOICES numbers the least ones. The first is what `decompose` finds
+    without `max_wires`, each other one what it finds with `max_wires: most_of_a_piece(it)`. Raises as
+    `decompose` does.
     """
     free = config.model_copy(update={"max_wires": None, "doubling": False, "choice": 1})
     found = [decompose(drawing, free, room)[0]]
-    for most in range(min(_most_of_a_piece(found[0]), MOST_CHOICES) - 1, 0, -1):
-        fewer = decompose(drawing, free.model_copy(update={"max_wires": most}), room)[0]
-        if fewer.energy.complexity < found[-1].energy.complexity:
-            found.append(fewer)
+    most = min(most_of_a_piece(found[0]), MOST_CHOICES) - 1
+    while most > 0:
+        fewer = free.model_copy(update={"max_wires": most})
+        shown, problem = _posed(drawing, fewer, room)
+        answer = _answer(problem, fewer)
+        if answer is None:
+            break
+        found.append(_solution(shown, problem, answer, fewer, fewer.solver))
+        most = most_of_a_piece(found[-1]) - 1  # the numbers between have the same answer
     return tuple(found)
 
 
-def _most_of_a_piece(solution: Solution) -> int:
+def most_of_a_piece(solution: Solution) -> int:
     """Of the pieces that touch nothing else, the number of wires of the one that has most."""
     graph = graph_of(solution.decomposition.drawing)
     of = {e: index for index, piece in enumerate(pieces(graph)) for e in piece}
     return max(Counter(of[trail.traversals[0].segment] for trail in solution.trails).values())
+
+
+def _answer(problem: Problem, config: DecompositionConfig) -> Answer | None:
+    """What the chosen solver finds for a problem; None where it finds nothing that the rules allow."""
+    rng, solver = np.random.default_rng(config.seed), SOLVERS[config.solver]
+    parts = parts_of(problem, config.bridges)
+    answer = solve_piecewise(problem, parts, lambda part: solver.solve(part, config, rng))
+    return answer if answer is not None and problem.is_allowed(answer.mate) else None
 
 
 def _chosen(

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 ALTERNATIVES = "alternatives.svg"
 """The picture of the best decompositions side by side."""
+FEWER_WIRES = "fewer-wires.svg"
+"""That of the best for each number of wires."""
 
 
 def write_views(folder: Path, views: Sequence[View], wires: Wires, suffix: str = "") -> Outcome:
@@ -114,3 +116,22 @@ def write_alternatives(work: Work, folder: Path) -> Outcome:
     shown = [(choice, draw_wires(choice, work.config, work.beads)[0]) for choice in choices]
     write_text(folder / ALTERNATIVES, alternatives_svg(shown))
     return Outcome(files=(ALTERNATIVES,))
+
+
+def write_fewer_wires(work: Work, folder: Path) -> Outcome:
+    """`fewer-wires.svg`: the best decomposition for each number of wires, and what they cost."""
+    from wrapit.decomposition.stage import front
+    from wrapit.exports.alternatives_svg import fewer_wires_svg
+    from wrapit.pipeline.report import fewer_wires_numbers, lengths_mm
+    from wrapit.wires.beside.side_by_side import room_of
+    from wrapit.wires.stage import draw_wires
+
+    assert work.drawing is not None
+    members = front(work.drawing, work.config.decomposition, room_of(work.config))
+    shown = [(member, draw_wires(member, work.config, work.beads)[0]) for member in members]
+    write_text(folder / FEWER_WIRES, fewer_wires_svg(shown))
+    numbers = [
+        numbers | {"lengths_mm": lengths_mm(wires)}
+        for numbers, (_, wires) in zip(fewer_wires_numbers(members), shown, strict=True)
+    ]
+    return Outcome(blocks={"fewer_wires": numbers}, files=(FEWER_WIRES,))

@@ -54,6 +54,7 @@ STEPS: Final[dict[str, Step]] = {
     "decomposition": Step(("fit",), ("decomposition",)),
     "sketch": Step(("wires",)),
     "alternatives": Step(("wires",)),
+    "fewer wires": Step(("wires",)),
     "wires": Step(("decomposition",), ("wire", "guide.margin", "bail", *_OF_TURNS)),
     "laid": Step(("wires",), ("jig",)),
     "jig printed": Step(("laid",), ("name", "outputs", "pair")),

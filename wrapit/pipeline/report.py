@@ -94,6 +94,28 @@ def decomposition_numbers(solution: Solution, fewest_possible_wires: int) -> dic
     return {**decomposition_summary(solution), "fewest_possible_wires": fewest_possible_wires}
 
 
+def fewer_wires_numbers(front: Sequence[Solution]) -> list[dict[str, Any]]:
+    """The `fewer_wires` block, the most wires first: what fewer of them cost, and the `max_wires` that asks
+    for them; of the first, which needs none, it is null."""
+    from wrapit.decomposition.stage import most_of_a_piece
+
+    return [
+        {
+            "max_wires": most_of_a_piece(member) if number else None,
+            "wires": member.energy.complexity,
+            "doubled_mm": _mm(member.doubled_mm),
+            "bends_deg": round(math.degrees(member.energy.smoothness_rad), 2),
+            "optimal": member.optimal,
+        }
+        for number, member in enumerate(front)
+    ]
+
+
+def lengths_mm(wires: Sequence[Wire]) -> list[float]:
+    """Of each wire as it is drawn, without tails."""
+    return [_mm(wire.length_mm) for wire in wires]
+
+
 def wire_numbers(wires: Sequence[Wire]) -> list[dict[str, Any]]:
     """The `wires` block."""
     return [

@@ -12,7 +12,7 @@ from typing import Any
 from wrapit.config import lock_text
 from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.cache.store import Store
-from wrapit.pipeline.exporting import write_alternatives, write_guide, write_sketch
+from wrapit.pipeline.exporting import write_alternatives, write_fewer_wires, write_guide, write_sketch
 from wrapit.pipeline.jigs import (
     jig_key,
     jig_step,
@@ -138,6 +138,8 @@ def _decompose(work: Work, folder: Path | None) -> None:
         if folder is not None and work.alternatives:
             key = work.key("alternatives", work.alternatives)
             work.remember(key, lambda: write_alternatives(work, folder), folder)
+            key = work.key("fewer wires")
+            work.take("fewer wires", work.remember(key, lambda: write_fewer_wires(work, folder), folder))
 
 
 def _draw_wires(work: Work, folder: Path | None) -> None:

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from wrapit.pipeline.build import Build
-from wrapit.pipeline.exporting import ALTERNATIVES
+from wrapit.pipeline.exporting import ALTERNATIVES, FEWER_WIRES
 
 # In the order in which they are told.
 LEVELS = ("error", "warning", "note")
+# What there may be, its picture, and what a command takes of it.
+OTHER_WIRES = (("alternatives", ALTERNATIVES, "one"), ("fewer wires", FEWER_WIRES, "the fewest"))
 
 
-def summary_lines(result: Build, take: str = "") -> Iterator[str]:
+def summary_lines(result: Build, take: Mapping[str, str] = {}) -> Iterator[str]:
     """A few lines: the drawing, the wires with their cut lengths, the jig, and where the files are.
 
-    `take` is a command that builds one of the alternatives, shown behind their picture.
+    `take` are commands that build the piece with other wires, by what they are; each is shown behind the
+    picture of these.
     """
     report = result.report
     drawing = report["drawing"]
@@ -39,9 +42,10 @@ def summary_lines(result: Build, take: str = "") -> Iterator[str]:
             yield f"the kernel's booleans find {jig['interference_mm3']:g} mm³ of jig in wires and channels"
     if result.folder is not None:
         yield _where(result)
-        for artifact in result.report["artifacts"] if take else ():
-            if artifact.get("instead_of", artifact["path"]) == ALTERNATIVES:
-                yield f"alternatives: {result.folder / artifact['path']}; take one with: {take}"
+        pictures = {each.get("instead_of", each["path"]): each["path"] for each in report["artifacts"]}
+        for what, picture, one in OTHER_WIRES:
+            if what in take and picture in pictures:
+                yield f"{what}: {result.folder / pictures[picture]}; take {one} with: {take[what]}"
 
 
 def fit_line(fit: dict[str, Any]) -> str:

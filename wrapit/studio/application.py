@@ -21,6 +21,8 @@ from wrapit.studio.session import RefusedError, Session
 
 LARGEST_BODY: Final = 1_500_000
 """Bytes of a request: a config of 200 kB in which JSON writes each letter as six, and some."""
+MOST_ALTERNATIVES: Final = 12
+"""As many as `wrapit build --alternatives` takes."""
 ASSETS: Final = (".js", ".css")
 """Kinds of files that the page loads; its own text is at `/`."""
 
@@ -73,6 +75,7 @@ def application(session: Session, door: Door) -> ASGIApp:
                 _post("/redo", lambda body: session.redo()),
                 _post("/again", lambda body: session.again()),
                 _post("/alternatives", lambda body: session.find_alternatives(_count(body)), 202),
+                _post("/fewer-wires", lambda body: session.find_fewer_wires(), 202),
             ],
             lifespan=life,
         ),
@@ -123,4 +126,7 @@ def _count(body: Any) -> int:
     count = body.get("count", 4) if isinstance(body, dict) else None
     if isinstance(count, bool) or not isinstance(count, int):
         raise RefusedError(422, ConfigError("a count is a whole number", "count", "send for example 4"))
+    if not 1 <= count <= MOST_ALTERNATIVES:
+        remedy = f"choose between 1 and {MOST_ALTERNATIVES}"
+        raise RefusedError(422, ConfigError(f"{count} alternatives can't be shown", "count", remedy))
     return count

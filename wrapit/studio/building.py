@@ -10,13 +10,15 @@ from typing import Any, Final
 from wrapit.config import Config
 from wrapit.pipeline.reads import Keys
 from wrapit.studio.bench import Bench, Message
+from wrapit.studio.looking import Looking
 
 GATHER_S: Final = 0.1
 """Changes so near to each other are built together, as while a slider is drawn."""
 
 
 class Building:
-    """Orders builds and alternatives, and keeps what they tell; `changed` is called after each of it.
+    """Orders builds, alternatives and what fewer wires cost, and keeps what they tell; `changed` is called
+    after each of it.
 
     `helped` are codes of findings against which it helps to make the drawing fit.
     """
@@ -30,11 +32,10 @@ class Building:
         self.shown |= {"report": None, "files": {}, "stage": None, "timings_s": {}}
         self.findings: list[Message] = []
         self.helped: list[str] = []
-        self.alternatives: Any = None
         self.folder: Path | None = None
-        self._alternatives_of = ""
         self._builder = Bench(self._hear)
-        self._chooser = Bench(self._hear_alternatives)
+        self.alternatives = Looking("find_alternatives", changed)
+        self.fewer_wires = Looking("find_fewer_wires", changed)
         self._soon: asyncio.TimerHandle | None = None
 
     @property
@@ -50,9 +51,8 @@ class Building:
             self._soon.cancel()
         if self._builder.is_busy:
             self._builder.stop()
-        if self.alternatives is not None and self._alternatives_of != self._foundation(config):
-            self.alternatives = None
-            self._chooser.stop()
+        self.alternatives.forget_unless(self._foundation(config, "alternatives"))
+        self.fewer_wires.forget_unless(self._foundation(config, "fewer wires"))
         if config is not None:
             self.progress = {"stage": "starting", "done": [], "stages": []}
             self._builder.warm_up()
@@ -60,16 +60,19 @@ class Building:
 
     def find_alternatives(self, config: Config, count: int) -> None:
         """Begins to look for so many of the best ways to divide the drawing."""
-        self.alternatives = {"building": True}
-        self._alternatives_of = self._foundation(config)
-        self._chooser.order("find_alternatives", self._path, count)
+        self.alternatives.begin(self._foundation(config, "alternatives"), self._path, count)
+
+    def find_fewer_wires(self, config: Config) -> None:
+        """Begins to look for what fewer wires cost."""
+        self.fewer_wires.begin(self._foundation(config, "fewer wires"), self._path)
 
     def end(self) -> None:
         """Ends the processes; returns when they are gone."""
         if self._soon is not None:
             self._soon.cancel()
         self._builder.end()
-        self._chooser.end()
+        self.alternatives.end()
+        self.fewer_wires.end()
 
     def _order(self) -> None:
         self._builder.order("build_piece", self._path, self._output)
@@ -89,23 +92,20 @@ class Building:
             self.folder = Path(message["folder"])
         self._changed()
 
-    def _hear_alternatives(self, message: Message) -> None:
-        if message.get("ended") is not None:
-            self.alternatives = {"error": message["ended"]}
-        self.alternatives = message.get("alternatives", self.alternatives)
-        self._changed()
-
-    def _foundation(self, config: Config | None) -> str:
-        """What alternatives depend upon, as a hash."""
+    def _foundation(self, config: Config | None, step: str) -> str:
+        """What a step that is looked for depends upon, as a hash."""
         if config is None:
             return ""
         # Choosing one of them changes none of them.
-        best = config.decomposition.model_copy(update={"choice": 1})
+        chosen: dict[str, Any] = {"choice": 1}
+        if step == "fewer wires":
+            chosen |= {"max_wires": None, "doubling": False}
+        best = config.decomposition.model_copy(update=chosen)
         drawing = self._path.parent / config.drawing
         keys = Keys(
             config.model_copy(update={"decomposition": best}), str(signature(drawing)), drawing.suffix
         )
-        return keys.of("alternatives")
+        return keys.of(step)
 
 
 def signature(path: Path) -> tuple[int, ...] | None:

@@ -1,4 +1,4 @@
-"""What the process beside the server does: builds, and looks for alternatives; it tells of each step.
+"""What the process beside the server does: builds, and looks for other wires; it tells of each step.
 
 Every message is a dict of plain values. Here, and in what is imported here, heavy libraries are loaded; the
 server only knows the name of this module.
@@ -10,10 +10,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from wrapit.config import load_config
+from wrapit.config import Config, load_config
+from wrapit.drawing.model import Drawing
 from wrapit.errors import UnheldError
 from wrapit.pipeline.build import Build, build
 from wrapit.pipeline.output.ownership import REPORT, listed_files, sha256
+from wrapit.pipeline.report import fewer_wires_numbers
 from wrapit.pipeline.stages import run_stages
 from wrapit.pipeline.work import STAGES, Stage, Work
 from wrapit.studio.comparing import helped_by_fit
@@ -58,6 +60,26 @@ def find_alternatives(tell: Tell, config_path: Path, count: int) -> None:
     from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
+    config, drawing = _read(config_path)
+    choices = alternatives(drawing, config.decomposition, count, room_of(config))
+    shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
+    tell({"found": alternative_documents(shown)})
+
+
+def find_fewer_wires(tell: Tell, config_path: Path) -> None:
+    """Tells what fewer wires cost, as the report does.
+
+    Raises what the stages raise.
+    """
+    from wrapit.decomposition.stage import front
+    from wrapit.wires.beside.side_by_side import room_of
+
+    config, drawing = _read(config_path)
+    tell({"found": fewer_wires_numbers(front(drawing, config.decomposition, room_of(config)))})
+
+
+def _read(config_path: Path) -> tuple[Config, Drawing]:
+    """The config, and the drawing that is divided."""
     config = load_config(config_path)
     seen: dict[str, Work] = {}
     work = _work(
@@ -69,9 +91,7 @@ def find_alternatives(tell: Tell, config_path: Path, count: int) -> None:
     )
     run_stages(work, None)
     assert work.drawing is not None, "the first stage traces it"
-    choices = alternatives(work.drawing, config.decomposition, count, room_of(config))
-    shown = [(choice, draw_wires(choice, config)[0]) for choice in choices]
-    tell({"alternatives": alternative_documents(shown)})
+    return config, work.drawing
 
 
 def _work(

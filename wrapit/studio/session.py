@@ -9,6 +9,7 @@ from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Final
 
+from wrapit.config import Config
 from wrapit.errors import ConfigError, WrapItError
 from wrapit.studio.bench import Message, told
 from wrapit.studio.building import Building, signature
@@ -26,8 +27,6 @@ SETTLE_S: Final = 0.05
 """Between two readings that have to agree before an editor's change is taken: some write in two steps."""
 ALIVE_S: Final = 15.0
 """Between signs of life on a line of events, so that nobody between takes it for dead."""
-MOST_ALTERNATIVES: Final = 12
-"""As many as `wrapit build --alternatives` takes."""
 
 
 class RefusedError(Exception):
@@ -110,7 +109,8 @@ class Session:
             "drop": numbers_at(data, "drop"),
             "shown": building.shown,
             "findings": [each | {"fixes": offered(each, "")} for each in building.findings],
-            "alternatives": building.alternatives,
+            "alternatives": building.alternatives.found,
+            "fewer_wires": building.fewer_wires.found,
         }
 
     async def revisions(self) -> AsyncIterator[int | None]:
@@ -191,16 +191,22 @@ class Session:
 
     def find_alternatives(self, count: int) -> int:
         """Begins to look for so many of the best ways to divide the drawing."""
-        if not 1 <= count <= MOST_ALTERNATIVES:
-            remedy = f"choose between 1 and {MOST_ALTERNATIVES}"
-            raise RefusedError(422, ConfigError(f"{count} alternatives can't be shown", "count", remedy))
+        self._building.find_alternatives(self._config(), count)
+        return self._bump()
+
+    def find_fewer_wires(self) -> int:
+        """Begins to look for what fewer wires cost."""
+        self._building.find_fewer_wires(self._config())
+        return self._bump()
+
+    def _config(self) -> Config:
+        """The config as it is now on the disk."""
         self._notice(content_of(self.path))
         if self._now.config is None:
             raise RefusedError(
                 422, self._now.problem or ConfigError("the config doesn't hold", self.path.name)
             )
-        self._building.find_alternatives(self._now.config, count)
-        return self._bump()
+        return self._now.config
 
     # Changes of the file
 

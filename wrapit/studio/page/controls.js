@@ -1,9 +1,13 @@
 // The settings: one control for each key of the config that matters, in groups.
 
 import { html, prose } from "./elements.js";
+import * as fewer from "./fewer.js";
 
 const GROUPS = { piece: "The piece", wire: "Wire", wires: "How it is divided", jig: "Printed jig", laser: "Laser-cut jig", guide: "Guide", files: "Files" };
 const OPEN = ["piece", "wire"];
+
+/** Keys with a control of a kind of their own. */
+const OWN = { "decomposition.max_wires": fewer };
 
 function wrong(control, error) {
   const place = control.querySelector(".wrong");
@@ -34,25 +38,27 @@ function field(each, id, act) {
   return html("input", { id, ...limits, ...described, autocomplete: "off", spellcheck: "false", ...changed(value) });
 }
 
-function made(each, act) {
+function made(each, act, look) {
   const id = each.key.replaceAll(".", "-");
   const given = html("button", { type: "button", class: "plain reset", onclick: () => act({ unset: [each.key] }), "aria-label": `${each.label}: back to ${each.default ?? "none"}` }, "Reset");
   return html(
     "div",
     { class: `control ${each.kind}`, id: `control-${id}` },
     each.kind === "choices" ? null : html("label", { for: id }, each.label),
-    html("div", { class: "row" }, field(each, id, act), given),
+    html("div", { class: "row" }, OWN[each.key] ? OWN[each.key].field(id, act) : field(each, id, act), given),
+    OWN[each.key] ? OWN[each.key].beside(id, look) : null,
     html("p", { class: "help", id: `${id}-help` }, ...prose(each.help)),
     html("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true }),
   );
 }
 
-function shown(each) {
+function shown(each, state) {
   const id = each.key.replaceAll(".", "-");
   const control = document.getElementById(`control-${id}`);
   control.classList.toggle("given", each.given);
   control.querySelector(".reset").hidden = !each.given;
   const input = document.getElementById(id);
+  if (OWN[each.key]) return OWN[each.key].shown(each, id, state);
   if (control.contains(document.activeElement) && control.querySelector(".wrong").hidden === false) return;
   if (each.kind === "choices") {
     for (const box of input.querySelectorAll("input")) box.checked = each.value.includes(box.value);
@@ -65,7 +71,7 @@ function shown(each) {
 }
 
 /** Makes the controls once, and afterwards shows their values; what somebody is writing is left alone. */
-export function controls(place, state, act) {
+export function controls(place, state, act, look) {
   const keys = state.controls.map((each) => each.key).join(" ");
   if (place.dataset.keys !== keys) {
     place.dataset.keys = keys;
@@ -76,12 +82,12 @@ export function controls(place, state, act) {
           "details",
           { open: OPEN.includes(group) },
           html("summary", {}, GROUPS[group]),
-          ...state.controls.filter((each) => each.group === group).map((each) => made(each, act)),
+          ...state.controls.filter((each) => each.group === group).map((each) => made(each, act, look)),
         ),
       ),
     );
   }
-  state.controls.forEach(shown);
+  for (const each of state.controls) shown(each, state);
   // What belongs to a block that is switched off would do nothing.
   const off = state.controls.filter((each) => each.kind === "switch" && !each.value).map((each) => `${each.key}.`);
   for (const each of state.controls)

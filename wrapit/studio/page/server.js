@@ -22,6 +22,7 @@ export const undo = () => post("/undo", {});
 export const again = () => post("/again", {});
 export const redo = () => post("/redo", {});
 export const showWays = (count) => post("/alternatives", { count });
+export const showFewerWires = () => post("/fewer-wires", {});
 
 /** The whole state, or null where the studio has ended. */
 export async function state() {

@@ -152,7 +152,7 @@ function show() {
   at("redo").disabled = !state.can_redo;
   at("problem").hidden = !state.problem;
   at("problem").replaceChildren(...panels.problem(state, act, tryAgain).filter(Boolean));
-  controls(at("settings"), state, act);
+  controls(at("settings"), state, act, look);
   loadPicture();
   showPicture();
   at("wishes").replaceChildren(...wishes(state, act));
@@ -175,6 +175,10 @@ async function act(wanted, { quiet = false } = {}) {
 
 async function ask(count) {
   complain((await server.showWays(count)).error);
+}
+
+async function look() {
+  complain((await server.showFewerWires()).error);
 }
 
 async function tryAgain() {
