@@ -49,28 +49,30 @@ class Joined:
 
 def join(
     curves: Sequence[BezierChain],
-    min_radius_mm: float | Sequence[float],
+    min_radius_mm: float,
     held: tuple[bool, bool] = (True, True),
+    between_mm: Sequence[float] | None = None,
 ) -> Joined:
     """One chain, G1 but at folds; bends become arcs of `min_radius_mm` where there is room.
 
     Each curve starts where the one before ends. Kinks inside a curve are rounded like those between curves.
-    Given a radius for each curve, a bend between two has the larger of theirs. `held` says for both ends
-    whether the line ends there: where it goes on straight, one bend may use up almost all of the last curve.
+    `between_mm` are the radii of bends between two curves, where these aren't the same. `held` says for both
+    ends whether the line ends there: where it goes on straight, one bend may use up almost all of the last
+    curve.
     """
-    asked = min_radius_mm if isinstance(min_radius_mm, Sequence) else [min_radius_mm] * len(curves)
-    radii_mm = list(asked)
-    split = [_split_at_kinks(faired(*each)) for each in zip(curves, radii_mm, strict=True)]
+    split = [_split_at_kinks(faired(curve, min_radius_mm)) for curve in curves]
     pieces = _aligned([piece for group in split for piece in group])
-    wide = [radius for radius, group in zip(radii_mm, split, strict=True) for _ in group]
+    asked_mm = [min_radius_mm] * (len(pieces) - 1)
+    for end, radius in zip(itertools.accumulate(map(len, split)), between_mm or (), strict=False):
+        asked_mm[end - 1] = radius
     room_mm = [MAX_TRIM * piece.length for piece in pieces]
     for end, piece in ((0, pieces[0]), (-1, pieces[-1])):
         if not held[end] and len(pieces) > 1:
             room_mm[end] = END_TRIM * piece.length
     blends = [
-        _blend(before, after, min(rooms), max(radii))
-        for (before, after), rooms, radii in zip(
-            itertools.pairwise(pieces), itertools.pairwise(room_mm), itertools.pairwise(wide), strict=True
+        _blend(before, after, min(rooms), radius)
+        for (before, after), rooms, radius in zip(
+            itertools.pairwise(pieces), itertools.pairwise(room_mm), asked_mm, strict=True
         )
     ]
     trims = [blend.trim_mm for blend in blends]
@@ -92,7 +94,7 @@ def join(
     bounds_mm = [*joints_mm, at_mm]
     firsts = itertools.accumulate((len(group) for group in split), initial=0)
     spans_mm = tuple(itertools.pairwise(bounds_mm[first] for first in firsts))
-    return _relaxed(Joined(_connected(chain), spans_mm, corners), np.array(radii_mm))
+    return _relaxed(Joined(_connected(chain), spans_mm, corners), min_radius_mm)
 
 
 def bend_rad(before: BezierChain, after: BezierChain) -> float:
@@ -154,12 +156,9 @@ def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius
     return blend if apart_mm >= 2 * least_mm else NO_BLEND
 
 
-def _relaxed(joined: Joined, radii_mm: FloatArray) -> Joined:
-    """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough.
-
-    The radii (m,) are those of the curves.
-    """
-    for start_mm, end_mm, min_radius_mm in reversed(_tight_spans(joined, radii_mm)):
+def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
+    """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough."""
+    for start_mm, end_mm in reversed(_tight_spans(joined, min_radius_mm)):
         middle, half = (start_mm + end_mm) / 2, (end_mm - start_mm) / 2
         room = min(middle, joined.chain.length - middle, half + RELAX_RADII * min_radius_mm) - 1e-3
         if room <= half:
@@ -171,20 +170,19 @@ def _relaxed(joined: Joined, radii_mm: FloatArray) -> Joined:
     return joined
 
 
-def _tight_spans(joined: Joined, radii_mm: FloatArray) -> list[tuple[float, float, float]]:
-    """Where the curvature is beyond the metal's, joined where they are nearer than the radius, with that."""
+def _tight_spans(joined: Joined, min_radius_mm: float) -> list[tuple[float, float]]:
+    """Where the curvature is beyond the metal's, joined where they are nearer than the radius."""
     lengths = ArcLength(from_chain(joined.chain))
     at_mm = lengths.stations(0.02)
-    middle_mm = (at_mm[:-1] + at_mm[1:]) / 2
-    asked_mm = radii_mm[np.searchsorted([start for start, _ in joined.spans_mm[1:]], middle_mm)]
-    tight = np.abs(lengths.spline.curvature(lengths.parameter(middle_mm))) > 1.01 / asked_mm
-    spans: list[tuple[float, float, float]] = []
+    curvature = np.abs(lengths.spline.curvature(lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2)))
+    tight = curvature > 1.01 / min_radius_mm
+    spans: list[tuple[float, float]] = []
     for a, b in np.flatnonzero(np.diff(np.r_[False, tight, False])).reshape(-1, 2):
-        start, end, radius_mm = float(at_mm[a]), float(at_mm[b]), float(asked_mm[a:b].max())
-        if spans and start - spans[-1][1] < radius_mm:
-            spans[-1] = (spans[-1][0], end, max(radius_mm, spans[-1][2]))
+        start, end = float(at_mm[a]), float(at_mm[b])
+        if spans and start - spans[-1][1] < min_radius_mm:
+            spans[-1] = (spans[-1][0], end)
         else:
-            spans.append((start, end, radius_mm))
+            spans.append((start, end))
     return spans
 
 

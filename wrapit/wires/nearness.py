@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.geometry import FloatArray
 from wrapit.geometry.arrays import IntArray
@@ -22,6 +23,10 @@ class Near:
     later: IntArray
     earlier: IntArray
     apart2: FloatArray
+
+    def chosen(self, which: NDArray[np.bool_]) -> Near:
+        """Some of the pairs."""
+        return Near(self.later[which], self.earlier[which], self.apart2[which])
 
 
 @dataclass(frozen=True, eq=False)

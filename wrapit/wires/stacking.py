@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from wrapit.geometry import BSpline, FloatArray
 from wrapit.geometry.arclength import ArcLength
-from wrapit.wires.nearness import Neighbours
+from wrapit.wires.beside.pairs import side_by_side
+from wrapit.wires.model import DoubleRun
+from wrapit.wires.nearness import Near, Neighbours
 
 # How closely wires are compared: heights change by 1e-3 mm with a third more or less.
 STEP_MM = 0.1
@@ -23,11 +25,14 @@ SELF_DIAMETERS = 3.0  # a wire meets itself only farther apart than this along i
 Profile = tuple[tuple[float, float], ...]
 
 
-def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[Profile]:
+def lay_wires(
+    splines: Sequence[BSpline], diameter_mm: float, doubles: Sequence[Sequence[DoubleRun]] = ()
+) -> list[Profile]:
     """For each wire, in the order in which they are laid, its height profile (at_mm, z_mm).
 
     A later wire rests on the earlier ones: wherever two centrelines are nearer than a diameter in the
-    plane, the later is raised until they are one diameter apart in space. Flat wires have no points.
+    plane, the later is raised until they are one diameter apart in space, but for runs side by side
+    (`doubles` of each wire). Flat wires have no points.
     """
     lines = [ArcLength(spline) for spline in splines]
     stations = [each.stations(STEP_MM) for each in lines]
@@ -35,12 +40,18 @@ def lay_wires(splines: Sequence[BSpline], diameter_mm: float) -> list[Profile]:
     if not points:
         return []
     cloud = Neighbours.of(np.concatenate(points), diameter_mm)
-    heights = np.zeros(len(cloud))
+    heights, every_mm = np.zeros(len(cloud)), np.concatenate(stations)
+    owner = np.repeat(np.arange(1, len(stations) + 1), [len(each) for each in stations])
+    runs = dict(enumerate(doubles, start=1))
     profiles: list[Profile] = []
     first = 0
-    for at_mm in stations:
+    for number, at_mm in enumerate(stations, start=1):
         laid = slice(first, first + len(at_mm))
-        heights[laid] = z_mm = _resting(cloud, laid, at_mm, heights, diameter_mm)
+        pairs = (
+            near.chosen(~side_by_side(number, near, every_mm, owner, runs, diameter_mm)) if runs else near
+            for near in cloud.before(laid)
+        )
+        heights[laid] = z_mm = _resting(pairs, laid, at_mm, heights, diameter_mm)
         profiles.append(_points(at_mm, z_mm) if z_mm.max() > 1e-9 else ())
         first += len(at_mm)
     return profiles
@@ -51,10 +62,12 @@ def layers_of(profile: Profile, diameter_mm: float) -> int:
     return 1 + math.ceil(max((z for _, z in profile), default=0.0) / diameter_mm - 1e-3)
 
 
-def _resting(cloud: Neighbours, laid: slice, at_mm: FloatArray, heights: FloatArray, d: float) -> FloatArray:
-    """Heights of the stations `laid` of one wire, above those before them in the cloud."""
+def _resting(
+    pairs: Iterable[Near], laid: slice, at_mm: FloatArray, heights: FloatArray, d: float
+) -> FloatArray:
+    """Heights of the stations `laid` of one wire, above those before them that are near."""
     needed, meetings = np.zeros(len(at_mm)), []
-    for near in cloud.before(laid):
+    for near in pairs:
         rise = np.sqrt(np.maximum(d**2 - near.apart2, 0.0))
         below = near.earlier < laid.start
         np.maximum.at(needed, near.later[below] - laid.start, (heights[near.earlier] + rise)[below])

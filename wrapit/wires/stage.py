@@ -47,8 +47,8 @@ def draw_wires(
     names = [wire_name(index) for index in range(len(joined))]
     splines = [from_chain(each.chain) for each in joined]
     bindings = find_bindings(drawing, solution.trails, names, [each.spans_mm for each in joined])
-    lifts = lay_wires(splines, wire.gauge)
     doubles = double_runs(beside.stretches, splines, [each.spans_mm for each in joined], APART * wire.gauge)
+    lifts = lay_wires(splines, wire.gauge, doubles)
     findings: list[Finding] = [*said, *beside.findings]
     wires = []
     for index, (name, trail, each, spline, moved_mm) in enumerate(

@@ -181,13 +181,6 @@ def test_each_place_of_the_eye_is_told() -> None:
     assert sum(len(step.ties) for step in steps) == len(second.bindings) == 2
 
 
-def test_a_run_for_the_second_time_is_said_so() -> None:
-    wire = eye()[1][0]
-    keys = [[text.key for text in step.texts] for step in wire_steps(laid(wire, None, ()), ())]
-    assert "note-doubled" in keys[-1]
-    assert not any("note-doubled" in said for said in keys[:-1])
-
-
 @pytest.mark.parametrize("turn", range(8))
 def test_starts_lead_the_way_that_the_compass_says(turn: int) -> None:
     end = (20 * math.cos(turn * math.pi / 4), 20 * math.sin(turn * math.pi / 4))

@@ -192,8 +192,6 @@ def _with_notes(laid: Laid, step: Step) -> Step:
         *beside_said(wire, laid.bench.wires if laid.bench is not None else (), within),
     )
     notes = [*sewing_said(wire, within), *_crossing_notes(wire, crossings)]
-    if not wire.doubles and _along(wire, step, _second_runs(wire)):
-        notes.append(text("note-doubled"))
     bridges = [run for run, traversal in enumerate(wire.traversals) if traversal.segment in laid.bridges]
     if _along(wire, step, bridges):
         notes.append(text("note-bridge"))
@@ -220,17 +218,6 @@ def _crossing_notes(wire: Wire, crossings: Sequence[Crossing]) -> Iterator[Text]
         others = [text("wire-number", wire=number) for number in over if number != wire.number]
         under = others + [text("itself")] * (wire.number in over)
         yield text("note-over", under=listed(under), places=listed(map(Length, places)))
-
-
-def _second_runs(wire: Wire) -> list[int]:
-    """Places among the wire's traversals that run along a segment again."""
-    seen: set[int] = set()
-    again = []
-    for place, traversal in enumerate(wire.traversals):
-        if traversal.segment in seen:
-            again.append(place)
-        seen.add(traversal.segment)
-    return again
 
 
 def _along(wire: Wire, step: Step, runs: Sequence[int]) -> bool:

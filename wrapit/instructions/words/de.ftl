@@ -343,7 +343,6 @@ sew-bead = { $side ->
    *[right] Rechts
   } davon, bei { $at }, liegt die Perle von { $size }: wenn alle Drähte gebunden sind, binde sie dort mit ein paar Windungen Bindedraht an diesen.
 note-over = Er läuft über { $under } bei { $places }.
-note-doubled = Leg ihn dicht neben den Lauf, der dort schon liegt.
 note-beside = { $way ->
     [back] Geh auf derselben Linie zurück
     [again] Geh noch einmal dieselbe Linie entlang

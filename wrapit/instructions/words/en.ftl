@@ -344,7 +344,6 @@ sew-bead = On the { $side ->
    *[right] right
   }, at { $at }, lies the bead of { $size }: when all wires are tied, sew it to this one there with a few turns of binding wire.
 note-over = It passes over { $under } at { $places }.
-note-doubled = Lay it close beside the run that lies there already.
 note-beside = { $way ->
     [back] Go back along the same line
     [again] Go along the same line once more

@@ -36,7 +36,6 @@ class Item:
     segments: tuple[int, ...]
     double: bool
     shift_mm: float
-    radius_mm: float
     joints: FloatArray
     corners: tuple[tuple[Corner, FloatArray], ...] = ()
 
@@ -49,12 +48,13 @@ class Laid:
     tight: frozenset[int]
 
 
-def laid_section(items: Sequence[Item], radius_mm: float, held: tuple[bool, bool]) -> Laid:
+def laid_section(items: Sequence[Item], radius_mm: float, least_mm: float, held: tuple[bool, bool]) -> Laid:
     """The items joined into one line and shifted; ramps bend by no less than the radius.
 
-    `held` says for both ends whether the wire ends there; a hairpin follows where not.
+    Bent more tightly than `least_mm` a run lies in itself. `held` says for both ends whether the wire ends
+    there; a hairpin follows where not.
     """
-    line = join([item.curve for item in items], [item.radius_mm for item in items], held)
+    line = join([item.curve for item in items], radius_mm, held, _bends_mm(items, radius_mm))
     levels = [
         Level(start, end, item.shift_mm, item.double)
         for item, (start, end) in zip(items, line.spans_mm, strict=True)
@@ -69,7 +69,7 @@ def laid_section(items: Sequence[Item], radius_mm: float, held: tuple[bool, bool
         for corner, point in item.corners:
             corners.append(dataclasses.replace(corner, at_mm=_nearest(course.lengths, point, start, end)))
     segments = [segment if item.double else -1 for item in items for segment in item.segments]
-    tight = _tight(course, segments, bounds_mm)
+    tight = _tight(course, segments, bounds_mm, least_mm)
     if tight:
         return Laid(line, tight)
     moved = shifted(course, bounds_mm)
@@ -87,6 +87,21 @@ def laid_section(items: Sequence[Item], radius_mm: float, held: tuple[bool, bool
     )
 
 
+def _bends_mm(items: Sequence[Item], radius_mm: float) -> list[float]:
+    """Radii of the bends between each two items: wider by the shift but on the outside of both of them.
+
+    On the outside of one, the ramp beside it needs what that has to spare.
+    """
+    asked_mm = []
+    for before, after in itertools.pairwise(items):
+        arriving, leaving = before.curve.end_tangent, after.curve.start_tangent
+        left = math.copysign(1.0, arriving[0] * leaving[1] - arriving[1] * leaving[0])
+        outside = left * before.shift_mm < 0 and left * after.shift_mm < 0
+        aside_mm = 0.0 if outside else max(abs(before.shift_mm), abs(after.shift_mm))
+        asked_mm.append(radius_mm + aside_mm)
+    return asked_mm
+
+
 def _moved(corner: Corner, course: Course, at_mm: float) -> Corner:
     """A corner of the line as one of the run beside it; its radius is then measured, and no longer known."""
     aside_mm = abs(float(course.shifts(np.array([corner.at_mm]))[0][0]))
@@ -94,11 +109,15 @@ def _moved(corner: Corner, course: Course, at_mm: float) -> Corner:
     return Corner(at_mm, corner.bend_rad, radius_mm, corner.deviation_mm + aside_mm)
 
 
-def _tight(course: Course, segments: Sequence[int], bounds_mm: Sequence[float]) -> frozenset[int]:
+def _tight(
+    course: Course, segments: Sequence[int], bounds_mm: Sequence[float], least_mm: float
+) -> frozenset[int]:
     """Of the segments (-1 for single ones), the doubled ones nearest to where a shift leaves no room."""
     at_mm = course.lengths.stations(LOOK_MM)
     middle_mm = (at_mm[:-1] + at_mm[1:]) / 2
-    wrong = middle_mm[course.room(middle_mm) < LEAST_ROOM]
+    room, bend = course.room(middle_mm), np.abs(course.curvature(middle_mm))
+    # Only where it is the shift that bends a run too tightly.
+    wrong = middle_mm[(room < LEAST_ROOM) | ((room < least_mm * bend) & (least_mm * bend < 1) & (room < 1))]
     spans = [
         (segment, span)
         for segment, span in zip(segments, itertools.pairwise(bounds_mm), strict=True)

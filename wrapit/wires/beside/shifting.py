@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, piece
-from wrapit.geometry.arrays import norms
+from wrapit.geometry.arrays import IntArray, norms
 from wrapit.geometry.bezier import evaluate
 from wrapit.wires.beside.bulb import arc
 
@@ -97,10 +97,14 @@ class Course:
         """The shift (m,) to the left at places (m,) of the line, and its slope along the shifted line."""
         shift, slope = np.full(len(at_mm), self.shift.first_mm), np.zeros(len(at_mm))
         for ramp, (places, sigma) in zip(self.shift.ramps, self._ramps, strict=True):
-            x = np.interp(at_mm, places, sigma / sigma[-1])
+            shift[at_mm >= ramp.end_mm] = ramp.after_mm
+            on = (at_mm > ramp.start_mm) & (at_mm < ramp.end_mm)
+            if not on.any():
+                continue
+            x = np.interp(at_mm[on], places, sigma) / sigma[-1]
             rise = ramp.after_mm - ramp.before_mm
-            shift = np.where(x > 0, ramp.before_mm + rise * _risen(x), shift)
-            slope += rise / sigma[-1] * 30 * x**2 * (1 - x) ** 2
+            shift[on] = ramp.before_mm + rise * _risen(x)
+            slope[on] = rise / sigma[-1] * 30 * x**2 * (1 - x) ** 2
         return shift, slope
 
     def room(self, at_mm: FloatArray) -> FloatArray:
@@ -136,36 +140,50 @@ class Course:
         growth = 1 - self.lengths.spline.curvature(inside) * shift
         return points, growth[:, None] * (along + slope[:, None] * left)
 
-    def cubics(self, start_mm: float, end_mm: float) -> BezierChain:
-        """The shifted line between two places without a joint between, in Hermite form."""
-        places = np.linspace(start_mm, end_mm, 2)
-        for _ in range(MOST_HALVINGS):
-            cubics, misses = self._hermite(places)
-            if not misses.any():
-                break
-            middles = (places[:-1] + places[1:])[misses] / 2
-            places = np.sort(np.concatenate([places, middles]))
-        return BezierChain(cubics)
+    def cubics(self, start_mm: FloatArray, end_mm: FloatArray) -> list[FloatArray]:
+        """The shifted line from places (n,) to places (n,): cubics (k, 4, 2) for each in Hermite form.
 
-    def _hermite(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Cubics (n, 4, 2) between places (n + 1,), and which of them miss the tolerance."""
-        step = np.diff(places)
+        No joint of the line lies between any two. All are looked at together, and those that miss are halved.
+        """
+        owner, low, high = np.arange(len(start_mm)), start_mm, end_mm
+        settled: list[tuple[IntArray, FloatArray, FloatArray]] = []
+        for halvings in range(MOST_HALVINGS):
+            at_end = low == start_mm[owner], high == end_mm[owner]
+            cubics, misses = self._hermite(low, high, *at_end)
+            done = np.full(len(low), halvings == MOST_HALVINGS - 1) | ~misses
+            settled.append((owner[done], low[done], cubics[done]))
+            middle = ((low + high) / 2)[~done]
+            owner = np.repeat(owner[~done], 2)
+            low = np.column_stack([low[~done], middle]).ravel()
+            high = np.column_stack([middle, high[~done]]).ravel()
+            if not len(low):
+                break
+        owners, lows, found = (np.concatenate(each) for each in zip(*settled, strict=True))
+        order = np.lexsort([lows, owners])
+        return np.split(found[order], np.flatnonzero(np.diff(owners[order])) + 1) if len(found) else []
+
+    def _hermite(
+        self, low: FloatArray, high: FloatArray, first: NDArray[np.bool_], last: NDArray[np.bool_]
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Cubics (n, 4, 2) between places (n,), and which of them miss the tolerance.
+
+        `first` and `last` say where a joint may be at one's start or end: it is seen from inside there.
+        """
+        step = high - low
         nudge = np.minimum(NUDGE_MM, step / 4)
-        a, leaving = self.at(places[:-1], nudge)
-        b, arriving = self.at(places[1:], -nudge)
-        leaving[1:] = arriving[:-1] = (leaving[1:] + arriving[:-1]) / 2
-        b[:-1] = a[1:]
+        a, leaving = self.at(low, nudge * first)
+        b, arriving = self.at(high, -nudge * last)
         cross = leaving[:, 0] * arriving[:, 1] - leaving[:, 1] * arriving[:, 0]
         turn = np.abs(np.arctan2(cross, (leaving * arriving).sum(axis=1)))
         # So long are the handles of an arc's cubic; they are thirds where it doesn't turn.
         third = step / 3 * np.where(turn > 1e-6, np.tan(turn / 4) / np.maximum(turn / 4, 1e-9), 1.0)
         cubics = np.stack([a, a + third[:, None] * leaving, b - third[:, None] * arriving, b], axis=1)
-        off = np.zeros(len(step))
-        for t in (0.25, 0.5, 0.75):
-            true, ahead = self.at(places[:-1] + t * step, np.zeros(len(step)))
-            apart = evaluate(cubics, np.array([t]))[:, 0] - true
-            ahead = unit(ahead)
-            off = np.maximum(off, np.abs(ahead[:, 0] * apart[:, 1] - ahead[:, 1] * apart[:, 0]))
+        t = np.array([0.25, 0.5, 0.75])
+        between = (low[:, None] + t * step[:, None]).ravel()
+        true, ahead = self.at(between, np.zeros(len(between)))
+        apart = evaluate(cubics, t).reshape(-1, 2) - true
+        ahead = unit(ahead)
+        off = np.abs(ahead[:, 0] * apart[:, 1] - ahead[:, 1] * apart[:, 0]).reshape(-1, len(t)).max(axis=1)
         return cubics, (off > TOLERANCE_MM) | (turn > PIECE_RAD)
 
 
@@ -178,21 +196,24 @@ def shifted(course: Course, bounds_mm: Sequence[float] = ()) -> Shifted:
     ramps = [place for ramp in shift.ramps for place in (ramp.start_mm, ramp.end_mm)]
     own = np.clip([*bounds_mm, *ramps], 0.0, reach[-1])
     breaks = _apart(np.unique(np.concatenate([reach, own])), reach)
-    plain = np.all(
-        [course.shifts((1 - t) * breaks[:-1] + t * breaks[1:])[0] == 0 for t in (0, 0.5, 1)], axis=0
-    )
+    starts, ends = breaks[:-1], breaks[1:]
+    plain = np.all([course.shifts((1 - t) * starts + t * ends)[0] == 0 for t in (0, 0.5, 1)], axis=0)
+    moved = iter(course.cubics(starts[~plain], ends[~plain]))
+    before, after = course.tangents(breaks - NUDGE_MM), course.tangents(breaks + NUDGE_MM)
+    aside_mm = course.shifts(breaks)[0]
     parts: list[FloatArray] = []
     at_mm = [0.0]
-    for (a, b), stays in zip(itertools.pairwise(breaks), plain, strict=True):
-        chain = piece(line, a, b) if stays else course.cubics(a, b)
-        points = chain.points.copy()
+    for index, stays in enumerate(plain):
+        points = piece(line, starts[index], ends[index]).points.copy() if stays else next(moved).copy()
+        length_mm = BezierChain(points).length
         if parts:
-            gap = _round_the_tip(course, parts[-1][-1, 3], points[0, 0], float(a))
-            at_mm[-1] += gap.length if gap is not None else 0.0
-            parts += [gap.points] if gap is not None else []
+            end = parts[-1][-1, 3]
+            tip = _round_the_tip(before[index], after[index], end, points[0, 0], float(aside_mm[index]))
+            at_mm[-1] += tip.length if tip is not None else 0.0
+            parts += [tip.points] if tip is not None else []
             points[0, 0] = parts[-1][-1, 3]
         parts.append(points)
-        at_mm.append(at_mm[-1] + chain.length)
+        at_mm.append(at_mm[-1] + length_mm)
     points = np.concatenate(parts)
     points[1:, 0] = points[:-1, 3]
     return Shifted(BezierChain(points), breaks, np.array(at_mm))
@@ -206,14 +227,13 @@ def _apart(breaks: FloatArray, reach: FloatArray) -> FloatArray:
     return breaks[kept]
 
 
-def _round_the_tip(course: Course, end: FloatArray, start: FloatArray, at_mm: float) -> BezierChain | None:
+def _round_the_tip(
+    before: FloatArray, after: FloatArray, end: FloatArray, start: FloatArray, shift_mm: float
+) -> BezierChain | None:
     """Half a circle round the tip of a fold; nothing where the line goes on smoothly."""
-    before, after = course.tangents(np.array([at_mm - NUDGE_MM, at_mm + NUDGE_MM]))
     bend = math.atan2(before[0] * after[1] - before[1] * after[0], float(before @ after))
-    gap_mm = float(norms(end - start))
-    if abs(bend) < KINK_RAD or gap_mm < NUDGE_MM:
+    if abs(bend) < KINK_RAD or float(norms(end - start)) < NUDGE_MM:
         return None
-    shift_mm = float(course.shifts(np.array([at_mm]))[0][0])
     heading = math.atan2(before[1], before[0])
     points = arc(end, heading, abs(shift_mm), -math.copysign(math.pi, shift_mm)).points.copy()
     points[-1, 3] = start

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections import defaultdict
 from collections.abc import Collection, Sequence
@@ -45,6 +46,11 @@ class Stretch:
         """Whether the first run turns round at the end and becomes the second."""
         one, other = self.strands
         return self.opposed and one.trail == other.trail and other.first == one.last + 1
+
+    @property
+    def swapped(self) -> Stretch:
+        """With its runs on the other sides of one another."""
+        return dataclasses.replace(self, side=-self.side)
 
     def shifts(self, apart_mm: float) -> tuple[float, float]:
         """How far to the left of the line each run lies, seen in its own direction of travel."""

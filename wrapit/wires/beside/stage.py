@@ -63,9 +63,13 @@ def lay_beside(drawing: Drawing, trails: Sequence[Trail], diameter_mm: float, ra
     """
     apart_mm = APART * diameter_mm
     counts = Counter(step.segment for trail in trails for step in trail.traversals)
+    swapped: set[int] = set()
     left_out: set[int] = set()
     while True:
-        stretches = find_stretches(drawing, trails, apart_mm, left_out)
+        stretches = [
+            stretch.swapped if swapped.intersection(stretch.segments) else stretch
+            for stretch in find_stretches(drawing, trails, apart_mm, left_out)
+        ]
         lines = [_line(drawing, trails, stretch, apart_mm, radius_mm) for stretch in stretches]
         laid, tight = [], set[int]()
         for index in range(len(trails)):
@@ -74,7 +78,9 @@ def lay_beside(drawing: Drawing, trails: Sequence[Trail], diameter_mm: float, ra
             tight |= wrong
         if not tight:
             break
-        left_out |= tight
+        # On the other side the run may be on the outside of what bends so tightly.
+        left_out |= tight & swapped
+        swapped |= tight
     moved = [0.0] * len(trails)
     findings = []
     for stretch, line in zip(stretches, lines, strict=True):
@@ -85,7 +91,7 @@ def lay_beside(drawing: Drawing, trails: Sequence[Trail], diameter_mm: float, ra
             findings += _short(stretch, line, laid)
     unlaid = sorted(left_out | {segment for segment, count in counts.items() if count > 2})
     findings += [_on_top(trails, laid, segment, counts[segment]) for segment in unlaid]
-    return Beside(tuple(laid), stretches, tuple(moved), tuple(findings))
+    return Beside(tuple(laid), tuple(stretches), tuple(moved), tuple(findings))
 
 
 def _line(
@@ -145,18 +151,18 @@ def _laid(
     while at < len(steps):
         if at not in starts:
             curve = _curve(drawing, *steps[at])
-            sections[-1].append(Item(curve, (steps[at].segment,), False, 0.0, radius_mm, np.empty((0, 2))))
+            sections[-1].append(Item(curve, (steps[at].segment,), False, 0.0, np.empty((0, 2))))
             at += 1
             continue
         stretch, line, which = starts[at]
-        sections[-1].append(_item(stretch, line, which, apart_mm, radius_mm))
+        sections[-1].append(_item(stretch, line, which, apart_mm))
         if stretch.folded and which == 0:
             shift_mm = stretch.shifts(apart_mm)[0]
             tips.append(bulb(line.stem.end, line.stem.end_tangent, shift_mm, radius_mm))
             sections.append([])
         at = stretch.strands[which].last + 1
     laid = [
-        laid_section(section, radius_mm, (place == 0, place == len(tips)))
+        laid_section(section, radius_mm, apart_mm / APART / 2, (place == 0, place == len(tips)))
         for place, section in enumerate(sections)
     ]
     tight = frozenset[int]().union(*(each.tight for each in laid))
@@ -165,7 +171,7 @@ def _laid(
     return _connected([each.joined for each in laid], tips), tight
 
 
-def _item(stretch: Stretch, line: _Line, which: int, apart_mm: float, radius_mm: float) -> Item:
+def _item(stretch: Stretch, line: _Line, which: int, apart_mm: float) -> Item:
     course = ArcLength(from_chain(line.joined.chain))
     ends_mm = np.array([end for _, end in line.joined.spans_mm[:-1]])
     joints = course.spline.at(course.parameter(ends_mm)) if len(ends_mm) else np.empty((0, 2))
@@ -176,8 +182,7 @@ def _item(stretch: Stretch, line: _Line, which: int, apart_mm: float, radius_mm:
     segments, stem = stretch.segments, line.stem
     if which == 1 and stretch.opposed:
         segments, stem, joints = segments[::-1], stem.reversed(), joints[::-1]
-    shift_mm = stretch.shifts(apart_mm)[which]
-    return Item(stem, segments, True, shift_mm, radius_mm + apart_mm / 2, joints, corners)
+    return Item(stem, segments, True, stretch.shifts(apart_mm)[which], joints, corners)
 
 
 def _connected(sections: Sequence[Joined], tips: Sequence[BezierChain]) -> Joined:
@@ -186,11 +191,11 @@ def _connected(sections: Sequence[Joined], tips: Sequence[BezierChain]) -> Joine
     spans, corners = list(sections[0].spans_mm), list(sections[0].corners)
     at_mm = sections[0].chain.length
     for section, tip in zip(sections[1:], tips, strict=True):
-        half_mm = tip.length / 2
-        spans[-1] = (spans[-1][0], at_mm + half_mm)
-        at_mm += 2 * half_mm
+        middle_mm = at_mm + tip.length / 2
+        spans[-1] = (spans[-1][0], middle_mm)
+        at_mm += tip.length
         moved = [(start + at_mm, end + at_mm) for start, end in section.spans_mm]
-        spans += [(at_mm - half_mm, moved[0][1]), *moved[1:]]
+        spans += [(middle_mm, moved[0][1]), *moved[1:]]
         corners += [dataclasses.replace(corner, at_mm=corner.at_mm + at_mm) for corner in section.corners]
         at_mm += section.chain.length
         chains += [tip, section.chain]
