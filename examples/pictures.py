@@ -18,6 +18,7 @@ from wrapit.exports.preview_png import write_preview
 from wrapit.exports.view_png import write_view
 from wrapit.jig.kinds import JIGS
 from wrapit.pipeline.trying.tried import read
+from wrapit.wires.beside.side_by_side import room_of
 from wrapit.wires.stage import draw_wires
 
 CONFIGS = Path(__file__).parent.parent / "configs"
@@ -30,7 +31,7 @@ PAPER = (250, 249, 246)
 def take(config: Config, name: str, folder: Path) -> tuple[Path, Path, Path]:
     """Pictures of a piece's wires, and of its (first) jig from above and at an angle."""
     drawing, _ = read(config, CONFIGS / config.drawing)
-    solution, _ = decompose(drawing, config.decomposition)
+    solution, _ = decompose(drawing, config.decomposition, room_of(config))
     wires, _ = draw_wires(solution, config)
     paths = folder / f"{name}-wires.png", folder / f"{name}-jig.png", folder / f"{name}-view.png"
     write_preview(paths[0], wires)
@@ -50,9 +51,9 @@ def row(pictures: list[Path]) -> Image.Image:
     return whole
 
 
-def ink_of(name: str) -> Path:
-    """The piece as ink on paper, also where its config takes the SVG."""
-    return CONFIGS / f"{name}.png"
+def ink_of(config: Config) -> Path:
+    """The drawing as ink on paper, also where the config takes the SVG."""
+    return (CONFIGS / config.drawing).with_suffix(".png")
 
 
 if __name__ == "__main__":
@@ -62,6 +63,6 @@ if __name__ == "__main__":
         settings = load_config(CONFIGS / f"{piece}.yaml")
         with tempfile.TemporaryDirectory() as elsewhere:
             taken = take(settings, piece, target if piece == "butterfly" else Path(elsewhere))
-            picture = row([ink_of(piece), taken[0], taken[2]]).quantize(128)
+            picture = row([ink_of(settings), taken[0], taken[2]]).quantize(128)
         picture.save(target / f"{piece}.png", optimize=True)
         print(target / f"{piece}.png")
