@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections import Counter
 from collections.abc import Sequence
 from itertools import islice
@@ -28,6 +29,7 @@ from wrapit.decomposition.graph import Graph, fewest_possible_wires, graph_of
 from wrapit.decomposition.model import NO_MATE, Solution, half_edges
 from wrapit.decomposition.second_runs import SideBySide, with_second_runs
 from wrapit.decomposition.stage import alternatives, decompose, front
+from wrapit.errors import DecompositionError
 
 BUDGET = 10_000_000
 DRAWINGS = {
@@ -261,3 +263,32 @@ def test_mirrored_pieces_have_so_many_wires_each() -> None:
     solution = solved(pair, max_wires=1, weights={"symmetry": 0.5})
     check(solution, 2, 1)
     assert (solution.energy.complexity, solution.energy.asymmetry) == (2, 0)
+
+
+@pytest.mark.parametrize(
+    ("most", "wishes", "said"),
+    [
+        (1, [{"different_wire": [0, 4]}], r"constraints\.0 .* and max_wires: 1 together"),
+        (2, [{"different_wire": [0, 4, 2]}], r"constraints\.0 .* and max_wires: 2 together"),
+        (1, [{"max_wire_length": "30 mm"}], r"constraints\.0 .* and max_wires: 1 together"),
+        (
+            2,
+            [{"same_wire": [0, 4]}, {"different_wire": [4, 0]}],
+            r"constraints\.0 .* constraints\.1 [^:]*:[^:]*$",
+        ),
+    ],
+)
+def test_wishes_that_so_few_wires_cannot_meet_are_named(
+    most: int, wishes: list[dict[str, object]], said: str
+) -> None:
+    with pytest.raises(DecompositionError) as refusal:
+        solved(theta(), max_wires=most, constraints=wishes)
+    assert re.search(said, str(refusal.value).split(";")[0])
+    assert solved(theta(), max_wires=most + 1, constraints=wishes[:1]).trails
+
+
+def test_as_many_lines_apart_as_wires_are_no_contradiction() -> None:
+    answer = solved(theta(), max_wires=2, constraints=[{"different_wire": [0, 4]}])
+    runs = [{t.segment for t in trail.traversals} for trail in answer.trails]
+    assert len(runs) <= 2
+    assert not any({0, 4} <= run for run in runs)

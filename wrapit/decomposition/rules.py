@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from wrapit.decomposition.graph import Graph
 from wrapit.decomposition.model import NO_MATE, Pair, half_edges
@@ -81,6 +82,28 @@ def wires_of_pieces(graph: Graph, mate: Sequence[int]) -> dict[int, int]:
     """How many wires a matching without rings makes of each connected piece: half the ends in use."""
     free = (h >> 1 for h, other in enumerate(mate) if other == NO_MATE and in_use(graph, mate, h >> 1))
     return {piece: ends // 2 for piece, ends in Counter(graph.piece_of[e] for e in free).items()}
+
+
+def contradict(graph: Graph, rules: Rules) -> bool:
+    """Whether it can be seen at once that no matching keeps the rules: which search finds out slowly.
+
+    Lines that lie on one wire and on two, and more lines of a piece that lie on a wire each than it has.
+    """
+    apart = {frozenset(pair) for pair in rules.apart}
+    for lines in rules.same:
+        if any(frozenset((one[0], other[0])) in apart for one, other in combinations(lines, 2)):
+            return True
+    if rules.most_wires is None or not apart:
+        return False
+    strokes = sorted({e for pair in rules.apart for e in pair if e not in graph.optional})
+    for first in strokes:
+        some = [first]
+        for e in strokes:
+            if all(graph.piece_of[e] == graph.piece_of[f] and frozenset((e, f)) in apart for f in some):
+                some.append(e)
+        if len(some) > rules.most_wires:
+            return True
+    return False
 
 
 def in_use(graph: Graph, mate: Sequence[int], e: int) -> bool:

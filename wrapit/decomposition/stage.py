@@ -216,18 +216,23 @@ def _refusal(problem: Problem, config: DecompositionConfig) -> DecompositionErro
     """
     kept = list(enumerate(config.constraints))
     if not _is_impossible(problem, config, [constraint for _, constraint in kept]):
+        asked = [f"max_wires: {config.max_wires}"] if config.max_wires is not None else []
+        asked += ["all constraints"] if kept else []
         return DecompositionError(
-            f"the solver {config.solver} found no wires that meet all constraints",
-            "decomposition.constraints",
+            f"the solver {config.solver} found no wires that meet {' and '.join(asked)}",
+            "decomposition.constraints" if kept else "decomposition.max_wires",
             more_thorough(config),
         )
     for entry in list(kept):
         fewer = [other for other in kept if other is not entry]
         if _is_impossible(problem, config, [constraint for _, constraint in fewer]):
             kept = fewer
-    named = " and ".join(f"constraints.{index} ({_said(constraint)})" for index, constraint in kept)
+    named = [f"constraints.{index} ({_said(constraint)})" for index, constraint in kept]
+    any_number = config.model_copy(update={"max_wires": None})
+    if config.max_wires is not None and not _is_impossible(problem, any_number, [each for _, each in kept]):
+        named.append(f"max_wires: {config.max_wires}")
     return DecompositionError(
-        f"no wires can meet {named}" + (" together" if len(kept) > 1 else ""),
+        f"no wires can meet {' and '.join(named)}" + (" together" if len(named) > 1 else ""),
         "decomposition.constraints",
         "drop or change one of them",
     )

@@ -9,6 +9,7 @@ from wrapit.decomposition.exact.chosen_segments import with_chosen
 from wrapit.decomposition.exact.postman import least_second_runs
 from wrapit.decomposition.graph import pieces
 from wrapit.decomposition.problem import CLOSE, Answer, Problem
+from wrapit.decomposition.rules import contradict
 
 
 def _improved(problem: Problem, known: Answer, most_wires: int) -> Answer:
@@ -32,6 +33,8 @@ def solve_exactly(problem: Problem, budget: int, others: Sequence[Sequence[int]]
     None where the rules can't be met, or where there is no other. `budget` limits the work of integer
     programming, which starts where local reasoning ends.
     """
+    if contradict(problem.graph, problem.rules):
+        return None
     known = certified(problem)
     if known.proven and problem.is_allowed(known.mate) and not others:
         return known
