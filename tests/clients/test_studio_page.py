@@ -105,6 +105,14 @@ def test_a_new_size_is_written_and_seen(page: Page, studio: Studio) -> None:
     assert drawn(page) == before
 
 
+def test_every_control_can_be_reached_with_the_mouse(page: Page) -> None:
+    page.locator("#settings details").evaluate_all("all => all.forEach((each) => (each.open = true))")
+    controls = page.locator("#settings :is(input, select, textarea, button):visible:enabled")
+    assert controls.count() > 25
+    for control in controls.all():
+        control.click(trial=True, timeout=5_000)
+
+
 def test_what_makes_no_sense_is_said_where_it_was_written(page: Page, studio: Studio) -> None:
     page.get_by_label("Size", exact=True).fill("60 potatoes")
     page.get_by_label("Size", exact=True).press("Enter")
