@@ -26,6 +26,13 @@ from wrapit.geometry import BezierChain, FloatArray
 Lines = list[Points]
 Rng = np.random.Generator
 
+# A sheet turned by right angles, and turned over.
+IMAGES = tuple(
+    np.diag(signs) @ axes
+    for axes in (np.eye(2), np.eye(2)[::-1])
+    for signs in itertools.product((1.0, -1.0), repeat=2)
+)
+
 # A pixel of the lines is so much of the drawing: ends this near to a line are joined to it.
 REACH_SHARE = 2e-3
 
@@ -200,3 +207,19 @@ def apart_mm(one: Drawing, other: Drawing) -> float:
 
     a, b = places_of(one), places_of(other)
     return float(max(cKDTree(a).query(b)[0].max(), cKDTree(b).query(a)[0].max()))
+
+
+def moved(drawing: Drawing, by: FloatArray) -> Drawing:
+    """The drawing somewhere else."""
+    junctions = tuple(Junction(j.id, j.point + by) for j in drawing.junctions)
+    segments = tuple(
+        Segment(s.id, s.start, s.end, BezierChain(s.curve.points + by)) for s in drawing.segments
+    )
+    return Drawing(junctions, segments)
+
+
+def looks_the_same(drawing: Drawing) -> bool:
+    """Whether a drawing has a symmetry of its own, within what is certain of places."""
+    low, high = drawing.bounds_mm
+    centred = moved(drawing, -(low + high) / 2)
+    return any(apart_mm(centred, mapped(centred, matrix)) < 1e-3 for matrix in IMAGES[1:])

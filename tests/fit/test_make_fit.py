@@ -12,15 +12,14 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from tests.bench.fit_judge import Fitness, fitness
-from tests.fit.drawn import KINDS, apart_mm, config, drawn, mapped, places_of
-from wrapit.drawing.model import Drawing, Junction, Segment
+from tests.fit.drawn import KINDS, apart_mm, config, drawn, looks_the_same, mapped, moved, places_of
+from wrapit.drawing.model import Drawing
 from wrapit.errors import ConfigError, Finding
 from wrapit.fit.limits import limits_of
 from wrapit.fit.measuring import fewest_wires
 from wrapit.fit.model import Fitted, Limits
 from wrapit.fit.sketch import Sketch
 from wrapit.fit.stage import make_fit
-from wrapit.geometry import BezierChain, FloatArray
 
 FLIP = np.diag([-1.0, 1.0])
 TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -120,10 +119,13 @@ def test_every_place_that_is_no_longer_there_is_told(kind, seed, size_mm, gauge,
 @settings(MODEST, max_examples=8)
 @given(kinds, seeds, sizes, gauges, levels, st.sampled_from([FLIP, TURN]))
 def test_what_is_mirrored_or_turned_comes_out_so_to_the_last_bit(kind, seed, size_mm, gauge, level, matrix):
-    """However its parts are numbered, and which way its lines run."""
+    """However its parts are numbered, and which way its lines run; what has a symmetry, within a micron."""
     result, _ = fitted(kind, seed, size_mm, gauge, level)
     image, _ = make_fit(mapped(result.original, matrix), config(level, gauge))
-    assert curves(image.drawing) == curves(mapped(result.drawing, matrix))
+    wanted = mapped(result.drawing, matrix)
+    if curves(image.drawing) != curves(wanted):
+        assert looks_the_same(result.original)
+        assert apart_mm(image.drawing, wanted) < 1e-3
 
 
 def curves(drawing: Drawing) -> list[list[float]]:
@@ -153,15 +155,6 @@ def test_mirrored_halves_come_out_as_mirrored_halves_but_for_what_faces_itself()
         alike += apart_mm(result.drawing, mapped(result.drawing, FLIP)) < 0.05
     assert asked >= 14
     assert alike >= asked - 3
-
-
-def moved(drawing: Drawing, by: FloatArray) -> Drawing:
-    """The drawing somewhere else."""
-    junctions = tuple(Junction(j.id, j.point + by) for j in drawing.junctions)
-    segments = tuple(
-        Segment(s.id, s.start, s.end, BezierChain(s.curve.points + by)) for s in drawing.segments
-    )
-    return Drawing(junctions, segments)
 
 
 @MODEST

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.fit.drawn import KINDS, drawn, mapped
+from tests.fit.drawn import IMAGES, KINDS, drawn, looks_the_same, mapped
 from wrapit.drawing.model import Removal
 from wrapit.fit.mirroring.posing import posed, unposed
 from wrapit.fit.sketch import Line, Sketch
 from wrapit.geometry import FloatArray, straight
 
-IMAGES = tuple(
-    np.diag(signs) @ axes
-    for axes in (np.eye(2), np.eye(2)[::-1])
-    for signs in itertools.product((1.0, -1.0), repeat=2)
-)
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
 
 
@@ -48,8 +41,14 @@ def test_a_figure_and_its_images_are_one_in_their_pose(
 ) -> None:
     drawing = drawn(kind, seed, 50.0, twin=twin)
     one, other = posed(Sketch.of(drawing))[0], posed(Sketch.of(mapped(drawing, matrix)))[0]
-    assert parts(one) == parts(other)
-    assert all((one.nodes[n] == other.nodes[n]).all() for n in one.nodes | other.nodes)
+    if parts(one) == parts(other):
+        assert all((one.nodes[n] == other.nodes[n]).all() for n in one.nodes | other.nodes)
+        return
+    # It looks the same in several poses: the one taken may be another, in which all lies where it did.
+    assert looks_the_same(drawing)
+    assert one.lines.keys() == other.lines.keys()
+    for n, line in one.lines.items():
+        np.testing.assert_allclose(line.curve.points, other.lines[n].curve.points, rtol=0, atol=3e-6)
 
 
 @settings(max_examples=30, deadline=None, derandomize=True)
@@ -75,9 +74,11 @@ def test_level_lines_have_no_negative_zeros(matrix: FloatArray) -> None:
             assert not (np.signbit(line.curve.points) & (line.curve.points == 0)).any()
 
 
-def test_the_last_bit_decides_between_poses_of_a_square() -> None:
-    """A square looks the same from eight sides; one whose corner is off by a hair doesn't."""
+def test_the_last_bit_decides_nothing() -> None:
+    """A square looks the same from eight sides, also one whose corner is off by less than is certain."""
     off = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0 + 1e-12), (0.0, 4.0))
-    poses = [posed(polygon(*(tuple(np.array(corner) @ matrix) for corner in off))) for matrix in IMAGES]
-    assert len({bytes(matrix) for _, matrix in poses}) == 8
-    assert all(parts(there) == parts(poses[0][0]) for there, _ in poses)
+    for matrix in IMAGES:
+        poses = [
+            posed(polygon(*(tuple(np.array(c) @ matrix) for c in corners)))[1] for corners in (SQUARE, off)
+        ]
+        assert (poses[0] == poses[1]).all()

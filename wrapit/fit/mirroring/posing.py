@@ -37,11 +37,11 @@ def posed(sketch: Sketch) -> tuple[Sketch, FloatArray]:
     """The sketch in its pose, numbered by where its parts lie there, and the matrix (2, 2) for that.
 
     A figure, its mirror image and the figure turned by right angles about the origin are the same there to
-    the last bit: of poses in which a figure looks the same, its last bits decide. A figure that is its own
-    image to the last bit has one pose for both.
+    the last bit. Of poses in which a figure looks the same, the places of its lines decide, and then which
+    is the first: not its last bits, which may be others on another machine.
     """
     laid = [(_laid(sketch, matrix), matrix) for matrix in _poses(sketch)]
-    lines, matrix = min(laid, key=lambda each: [_points(line) for line in each[0]]) if laid[1:] else laid[0]
+    lines, matrix = min(laid, key=lambda each: [_place(line) for line in each[0]]) if laid[1:] else laid[0]
     names: dict[int, int] = {}
     for line in lines:
         for node in (line.start, line.end):
@@ -101,12 +101,12 @@ def _forwards(line: Line) -> Line:
 
 def _rank(line: Line) -> tuple[list[float], list[float]]:
     """What lines are ordered by: where they lie, so far as that is certain, and then by the last bit."""
-    points = _points(line)
-    return np.round(points, _PLACE_DIGITS).tolist(), points
+    return _place(line), line.curve.points.ravel().tolist()
 
 
-def _points(line: Line) -> list[float]:
-    return line.curve.points.ravel().tolist()
+def _place(line: Line) -> list[float]:
+    """Where a line lies, as every machine reads it."""
+    return [float(each) for each in np.round(line.curve.points, _PLACE_DIGITS).ravel() + 0.0]
 
 
 def _moved(removed: tuple[Removal, ...], matrix: FloatArray) -> tuple[Removal, ...]:
