@@ -20,7 +20,7 @@ def constants() -> list[tuple[Path, str, str]]:
 
 
 def test_there_are_pages_and_they_name_constants() -> None:
-    rooms = ["jig", "bench", "parting", "pegs", "printed", "sheet", "taut", "wrapping"]
+    rooms = ["jig", "bench", "paired", "parting", "pegs", "printed", "sheet", "taut", "wrapping"]
     assert [page.parent.name for page in PAGES] == rooms
     assert len(constants()) >= 30
     assert {page for page, _, _ in constants()} == set(PAGES)
