@@ -205,6 +205,7 @@ def shifted(course: Course, bounds_mm: Sequence[float] = ()) -> Shifted:
     at_mm = [0.0]
     for index, stays in enumerate(plain):
         points = piece(line, starts[index], ends[index]).points.copy() if stays else next(moved).copy()
+        points[1:, 0] = points[:-1, 3]  # two cubics may see their joint differently in the last bit
         length_mm = BezierChain(points).length
         if parts:
             end = parts[-1][-1, 3]
