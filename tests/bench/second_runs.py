@@ -15,6 +15,7 @@ from itertools import islice
 import numpy as np
 
 from tests.bench.graphs import FAMILIES
+from tests.conftest import CONFIGS
 from tests.decomposition.brute import energy_by_definition
 from tests.decomposition.exact.test_postman import LENGTHS_ALONE, drawn, open_route_mm
 from tests.decomposition.second_runs_judge import (
@@ -25,6 +26,7 @@ from tests.decomposition.second_runs_judge import (
     plainly_solved,
     posed,
 )
+from wrapit.config import load_config
 from wrapit.config.decomposition import ConstraintConfig
 from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import pieces
@@ -32,6 +34,10 @@ from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
 from wrapit.decomposition.rules import Rules
 from wrapit.decomposition.second_runs import with_second_runs
+from wrapit.decomposition.stage import decompose
+from wrapit.pipeline.trying.tried import read
+from wrapit.wires.beside.side_by_side import room_of
+from wrapit.wires.stage import draw_wires
 
 BUDGET = 2_000_000
 _MATCHINGS = 3_000  # of larger graphs there are too many to try them all
@@ -48,6 +54,7 @@ def main() -> None:
         _compared(f"all choices{', bridges' * bridged}", _chosen(count, bridged=bridged))
     _compared("Chinese postman", _postman(200))
     _timed()
+    _laid()
 
 
 # The problem, its wishes, and the least energy that the judge found.
@@ -110,6 +117,30 @@ def _timed() -> None:
                 f"{max(0.0, energy.total - answer.lower_bound):10.1e}{energy.doubling:10.2f}",
                 flush=True,
             )
+
+
+def _laid() -> None:
+    """What of the project's own drawings, each in one wire for each piece, comes to lie side by side."""
+    print("\nour drawings with max_wires: 1")
+    print(
+        f"{'':20}{'segments':>10}{'run twice':>12}{'beside':>10}{'layers':>8}{'too tight':>11}{'laid in':>9}"
+    )
+    for path in sorted(CONFIGS.glob("*.yaml")):
+        settings = load_config(path)
+        wanted = settings.decomposition.model_copy(update={"max_wires": 1})
+        config = settings.model_copy(update={"decomposition": wanted})
+        drawing, _ = read(config, CONFIGS / config.drawing)
+        solution, _ = decompose(drawing, wanted, room_of(config))
+        start = time.process_time()
+        wires, findings = draw_wires(solution, config)
+        spent_s = time.process_time() - start
+        beside_mm = sum(run.end_mm - run.start_mm for wire in wires for run in wire.doubles if run.first)
+        tight = sum(each.code == "tight-bend" for each in findings)
+        print(
+            f"{path.stem:20}{len(drawing.segments):10}{solution.doubled_mm:9.0f} mm{beside_mm:7.0f} mm"
+            f"{max(wire.layers for wire in wires):8}{tight:11}{spent_s:7.2f} s",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -179,6 +179,11 @@ class DecompositionConfig(Block):
     exact: ExactConfig = ExactConfig()
     annealing: AnnealingConfig = AnnealingConfig()
 
+    @property
+    def second_runs(self) -> bool:
+        """Whether lines may be run along twice."""
+        return self.doubling or self.max_wires is not None
+
     @field_validator("refine_dangling", mode="before")
     @classmethod
     def _read_switch(cls, value: object) -> object:

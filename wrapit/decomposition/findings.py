@@ -60,14 +60,13 @@ def _run_twice(solution: Solution, room: SideBySide | None) -> list[Finding]:
     if not solution.doubled:
         return []
     drawing = solution.decomposition.drawing
-    length_mm = sum(drawing.segments[e].curve.length for e in solution.doubled)
     named = _named(solution.doubled)
     findings = [
         Finding(
             "note",
             "doubled-wire",
             "decomposition",
-            f"{length_mm:.0f} mm of the lines have two wires side by side: segments {named}",
+            f"{solution.doubled_mm:.0f} mm of the lines have two wires side by side: segments {named}",
             "allow more wires with decomposition.max_wires for fewer of them",
         )
     ]

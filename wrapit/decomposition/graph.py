@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -10,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wrapit.decomposition.model import half_edges
+from wrapit.decomposition.model import Solution, half_edges
 from wrapit.drawing.model import Drawing
 from wrapit.geometry import FloatArray, locked
 from wrapit.geometry.disjoint_sets import Sets
@@ -165,3 +166,9 @@ def fewest_possible_wires(graph: Graph) -> int:
         max(1, sum(odd[j] for j in {strokes.junction_of[h] for e in piece for h in half_edges(e)}) // 2)
         for piece in pieces(strokes)
     )
+
+
+def most_of_a_piece(solution: Solution) -> int:
+    """Of the pieces that touch nothing else, the number of wires of the one that has most."""
+    piece_of = graph_of(solution.decomposition.drawing).piece_of
+    return max(Counter(piece_of[trail.traversals[0].segment] for trail in solution.trails).values())

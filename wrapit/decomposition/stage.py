@@ -14,7 +14,7 @@ from wrapit.decomposition.constraints import rules_of
 from wrapit.decomposition.doubling import doubled_back
 from wrapit.decomposition.energy import energy_of_trails
 from wrapit.decomposition.findings import findings_of
-from wrapit.decomposition.graph import Graph, graph_of, pieces
+from wrapit.decomposition.graph import Graph, graph_of, most_of_a_piece
 from wrapit.decomposition.model import NO_MATE, Decomposition, Solution, Weights, half_edges
 from wrapit.decomposition.problem import Answer, Problem, best_answers, parts_of, solve_piecewise
 from wrapit.decomposition.second_runs import SideBySide, cramped, with_second_runs
@@ -96,13 +96,6 @@ def front(
     return tuple(found)
 
 
-def most_of_a_piece(solution: Solution) -> int:
-    """Of the pieces that touch nothing else, the number of wires of the one that has most."""
-    graph = graph_of(solution.decomposition.drawing)
-    of = {e: index for index, piece in enumerate(pieces(graph)) for e in piece}
-    return max(Counter(of[trail.traversals[0].segment] for trail in solution.trails).values())
-
-
 def _answer(problem: Problem, config: DecompositionConfig) -> Answer | None:
     """What the chosen solver finds for a problem; None where it finds nothing that the rules allow."""
     rng, solver = np.random.default_rng(config.seed), SOLVERS[config.solver]
@@ -153,7 +146,7 @@ def _posed(drawing: Drawing, config: DecompositionConfig, room: SideBySide | Non
     if config.bridges:
         drawing = with_bridges(drawing)
     graph = graph_of(drawing)
-    if config.doubling or config.max_wires is not None:
+    if config.second_runs:
         graph = with_second_runs(graph, cramped(drawing, room))
     return drawing, Problem(
         graph,

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from math import degrees
 from xml.sax.saxutils import escape
 
+from wrapit.decomposition.graph import most_of_a_piece
 from wrapit.decomposition.model import Energy, Solution
-from wrapit.decomposition.stage import most_of_a_piece
 from wrapit.exports.decomposition_svg import decomposition_svg
 from wrapit.exports.svgpage import FONT
 from wrapit.wires.model import Wire

@@ -85,7 +85,7 @@ class Keys:
         self._settings = config.model_dump(mode="json")
         self._drawing = (drawing_sha256, suffix)
         self._fit = takes_fit(config)
-        self._twice = config.decomposition.doubling or config.decomposition.max_wires is not None
+        self._twice = config.decomposition.second_runs
 
     def of(self, step: str, *also: Any, upon: Iterable[str] = ()) -> str:
         """The key of a step; `also` is JSON that it depends on too, `upon` more steps that it is upon."""

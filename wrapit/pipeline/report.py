@@ -97,7 +97,7 @@ def decomposition_numbers(solution: Solution, fewest_possible_wires: int) -> dic
 def fewer_wires_numbers(front: Sequence[Solution]) -> list[dict[str, Any]]:
     """The `fewer_wires` block, the most wires first: what fewer of them cost, and the `max_wires` that asks
     for them; of the first, which needs none, it is null."""
-    from wrapit.decomposition.stage import most_of_a_piece
+    from wrapit.decomposition.graph import most_of_a_piece
 
     return [
         {

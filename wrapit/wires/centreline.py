@@ -158,7 +158,7 @@ def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius
 
 def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
     """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough."""
-    for start_mm, end_mm in reversed(_tight_spans(joined, min_radius_mm)):
+    for start_mm, end_mm in reversed(_tight_spans(joined.chain, min_radius_mm)):
         middle, half = (start_mm + end_mm) / 2, (end_mm - start_mm) / 2
         room = min(middle, joined.chain.length - middle, half + RELAX_RADII * min_radius_mm) - 1e-3
         if room <= half:
@@ -170,12 +170,12 @@ def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
     return joined
 
 
-def _tight_spans(joined: Joined, min_radius_mm: float) -> list[tuple[float, float]]:
-    """Where the curvature is beyond the metal's, joined where they are nearer than the radius."""
-    lengths = ArcLength(from_chain(joined.chain))
+def _tight_spans(chain: BezierChain, min_radius_mm: float) -> list[tuple[float, float]]:
+    """Where the curvature is beyond the metal's, joined where they are nearer than that radius."""
+    lengths = ArcLength(from_chain(chain))
     at_mm = lengths.stations(0.02)
-    curvature = np.abs(lengths.spline.curvature(lengths.parameter((at_mm[:-1] + at_mm[1:]) / 2)))
-    tight = curvature > 1.01 / min_radius_mm
+    middle_mm = (at_mm[:-1] + at_mm[1:]) / 2
+    tight = np.abs(lengths.spline.curvature(lengths.parameter(middle_mm))) > 1.01 / min_radius_mm
     spans: list[tuple[float, float]] = []
     for a, b in np.flatnonzero(np.diff(np.r_[False, tight, False])).reshape(-1, 2):
         start, end = float(at_mm[a]), float(at_mm[b])

@@ -114,7 +114,7 @@ def crossings(one: FloatArray, other: FloatArray) -> int:
     return 0 if met.is_empty else len(shapely.get_parts(met))  # an empty line has one part
 
 
-@settings(max_examples=4, deadline=None, phases=[Phase.generate])
+@settings(max_examples=40, deadline=None, phases=[Phase.generate])
 @given(forks(), st.booleans(), st.booleans())
 def test_two_wires_along_a_stretch_lie_side_by_side(
     fork: tuple[list[tuple[float, float]], list[Edge], int], opposed: bool, crossed: bool
@@ -153,7 +153,7 @@ def test_two_wires_along_a_stretch_lie_side_by_side(
     assert {run.first for wire in wires for run in wire.doubles} == {True, False}
 
 
-@settings(max_examples=4, deadline=None, phases=[Phase.generate])
+@settings(max_examples=40, deadline=None, phases=[Phase.generate])
 @given(st.floats(14, 30), st.floats(-1.2, 1.2), st.floats(1.1, 2.0), st.booleans())
 def test_a_leaf_is_run_out_and_back_round_a_bulb(
     length: float, bend: float, angle: float, left: bool

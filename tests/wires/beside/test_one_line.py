@@ -18,7 +18,7 @@ from tests.jig.metal import arcs
 from tests.wires.beside.test_beside import APART_MM, CONFIG, GAUGE_MM, Edge, Step, apart_mm, is_smooth, laid
 from tests.wires.pieces import drawing_of, solution_of
 from wrapit.fit.limits import least_radius_mm
-from wrapit.geometry import BezierChain, from_chain, straight
+from wrapit.geometry import BezierChain, FloatArray, from_chain, straight
 from wrapit.geometry.arclength import ArcLength
 from wrapit.kernel.interference import common_mm3
 from wrapit.kernel.round_wires.sweeps import round_wire
@@ -143,6 +143,26 @@ def test_solids_of_two_wires_side_by_side_share_nothing() -> None:
     assert cKDTree(wires[0].centreline.chain.sampled(0.05)).query(wires[1].centreline.chain.sampled(0.05))[
         0
     ].min() == pytest.approx(APART_MM, rel=0.01)
+
+
+def test_a_joint_that_two_cubics_see_differently_in_the_last_bit_is_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Arithmetic on many places at once rounds some otherwise: a drawing of a rhinoceros stopped there."""
+    line = arcs((0, 0), 0, (6, 0), (4, 100), (6, 0))
+    course = Course(line, Shift(0.0, (Ramp(1.0, line.length - 1.0, 0.0, 0.5),)))
+    exact = course.cubics
+
+    def rounded(start_mm: FloatArray, end_mm: FloatArray) -> list[FloatArray]:
+        found = [points.copy() for points in exact(start_mm, end_mm)]
+        assert any(len(points) > 1 for points in found)
+        for points in found:
+            points[1:, 0] = np.nextafter(points[1:, 0], np.inf)
+        return found
+
+    true = shifted(course)
+    monkeypatch.setattr(Course, "cubics", lambda _, start_mm, end_mm: rounded(start_mm, end_mm))
+    np.testing.assert_allclose(shifted(course).chain.points, true.chain.points, rtol=0, atol=1e-12)
 
 
 @settings(max_examples=25, deadline=None, phases=[Phase.generate])

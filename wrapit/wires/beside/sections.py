@@ -68,6 +68,8 @@ def laid_section(items: Sequence[Item], radius_mm: float, least_mm: float, held:
         bounds_mm += [*np.maximum.accumulate(inner).tolist(), end]
         for corner, point in item.corners:
             corners.append(dataclasses.replace(corner, at_mm=_nearest(course.lengths, point, start, end)))
+    # What was cut and joined tells its length to 1e-5 mm; the wire ends where the line does.
+    bounds_mm[-1] = float(course.reach[-1])
     segments = [segment if item.double else -1 for item in items for segment in item.segments]
     tight = _tight(course, segments, bounds_mm, least_mm)
     if tight:
