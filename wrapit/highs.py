@@ -36,6 +36,8 @@ class Programme:
     costs: list[float] = field(default_factory=list)
     whole: list[bool] = field(default_factory=list)
     rows: list[tuple[dict[Name, float], float, float]] = field(default_factory=list)
+    _entries: list[tuple[int, int, float]] = field(default_factory=list)
+    _reached: tuple[int, int] = (0, 0)
 
     def add_column(self, name: Name, cost: float, *, whole: bool = True) -> None:
         """A variable, unless it is there already."""
@@ -58,12 +60,7 @@ class Programme:
         from scipy.optimize import Bounds, LinearConstraint, milp
         from scipy.sparse import csr_array
 
-        entries = [
-            (row, self.columns[name], coefficient)
-            for row, (coefficients, _, _) in enumerate(self.rows)
-            for name, coefficient in coefficients.items()
-            if name in self.columns
-        ]
+        entries = self._entered()
         rows, columns, coefficients = zip(*entries, strict=True) if entries else ((), (), ())
         matrix = csr_array((coefficients, (rows, columns)), shape=(len(self.rows), len(self.columns)))
         low, high = np.zeros(len(self.columns)), np.ones(len(self.columns))
@@ -88,6 +85,20 @@ class Programme:
         if bound is None or not np.isfinite(bound):
             bound = -np.inf
         return Optimum(values, float(bound) / _SCALE, int(outcome.get("mip_node_count") or 0), not infeasible)
+
+    def _entered(self) -> list[tuple[int, int, float]]:
+        """Row, column and coefficient of all that isn't zero; what was there at the last call is kept."""
+        rows, columns = self._reached
+        if columns != len(self.columns):  # a name that counted as zero may be one of the new
+            rows, self._entries = 0, []
+        self._entries += [
+            (rows + row, self.columns[name], coefficient)
+            for row, (coefficients, _, _) in enumerate(self.rows[rows:])
+            for name, coefficient in coefficients.items()
+            if name in self.columns
+        ]
+        self._reached = len(self.rows), len(self.columns)
+        return self._entries
 
 
 @contextmanager

@@ -24,7 +24,7 @@ kinds = st.sampled_from([kind for kind in KINDS if kind != "blobs"])
 
 
 def one(sketch: Sketch) -> Sketch:
-    return zipped(sketch, LIMITS, worths(sketch, faces_of(sketch), LIMITS), frozenset())
+    return zipped(sketch, LIMITS, frozenset())
 
 
 def rails(apart_mm: float) -> Drawing:

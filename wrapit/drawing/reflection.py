@@ -58,18 +58,19 @@ def mirror_images(drawing: Drawing, direction: Direction) -> tuple[int, ...]:
             angles = [math.pi / 2, *(math.radians(degrees) for degrees in range(180) if degrees != 90)]
     low, high = drawing.bounds_mm
     curves = [segment.curve for segment in drawing.segments]
-    return images_of(curves, angles, float(np.max(high - low)))[0]
+    lines = np.array([spread(curve) for curve in curves])
+    lengths = np.array([curve.length for curve in curves])
+    return images_of(lines, lengths, angles, float(np.max(high - low)))[0]
 
 
 def images_of(
-    curves: Sequence[BezierChain], angles_rad: Sequence[float], across_mm: float
+    lines: FloatArray, weights: FloatArray, angles_rad: Sequence[float], across_mm: float
 ) -> tuple[tuple[int, ...], float, Axis]:
-    """For each half-edge of curves the mirror image at the best of some angles, what share has one, the axis.
+    """For each half-edge the mirror image at the best of some angles, what share has one, the axis.
 
-    The axis runs through the centre of the lines; `across_mm` is their longest side.
+    Lines are given by points `spread` along them (n, 9, 2) and by their lengths (n,). The axis runs through
+    their centre; `across_mm` is their longest side.
     """
-    lines = np.array([_evenly(curve.sampled(0.2)) for curve in curves])
-    weights = np.array([curve.length for curve in curves])
     centre = np.average(lines.mean(axis=1), axis=0, weights=weights)
     tolerance_mm = _TOLERANCE * across_mm
     axes = [Axis(locked(centre), angle) for angle in angles_rad]
@@ -81,19 +82,32 @@ def images_of(
 
 def _images(lines: FloatArray, axis: Axis, tolerance_mm: float) -> tuple[int, ...]:
     """Segments are images where points spread along them are; each has one at most."""
-    images = axis.mirrored(lines)
-    same = np.abs(images[:, None] - lines[None]).max(axis=(2, 3))
-    turned = np.abs(images[:, None] - lines[None, :, ::-1]).max(axis=(2, 3))
+    from scipy.spatial import cKDTree
+
+    images, middle = axis.mirrored(lines), _PARTS // 2
+    # Only lines whose middles are near can be: twice the tolerance, as it is measured along x and y, and is
+    # up to √2 as far for the image of a line as for the line itself.
+    near = cKDTree(images[:, middle]).sparse_distance_matrix(
+        cKDTree(lines[:, middle]), 2 * tolerance_mm, output_type="ndarray"
+    )
+    one, other = near["i"], near["j"]
+    same = np.abs(images[one] - lines[other]).max(axis=(1, 2))
+    turned = np.abs(images[one] - lines[other, ::-1]).max(axis=(1, 2))
     distance = np.minimum(same, turned)
-    nearest = distance.argmin(axis=1)
+    # For each line the first of its nearest.
+    order = np.lexsort((other, distance, one))
+    order = order[np.unique(one[order], return_index=True)[1]]
+    nearest = dict(zip(one[order].tolist(), order.tolist(), strict=True))
     mirror = [NO_IMAGE] * (2 * len(lines))
-    for e, f in enumerate(nearest.tolist()):
-        if nearest[f] == e and distance[e, f] <= tolerance_mm:
-            flip = int(turned[e, f] < same[e, f])
+    for e, pair in nearest.items():
+        f = int(other[pair])
+        back = nearest.get(f)
+        if back is not None and other[back] == e and distance[pair] <= tolerance_mm:
+            flip = int(turned[pair] < same[pair])
             mirror[2 * e], mirror[2 * e + 1] = 2 * f + flip, 2 * f + 1 - flip
     return tuple(mirror)
 
 
-def _evenly(points: FloatArray) -> FloatArray:
-    """Points (9, 2) at even distances along a polyline."""
-    return evenly(points, _PARTS)
+def spread(curve: BezierChain) -> FloatArray:
+    """Points (9, 2) at even distances along a curve: what its image is known by."""
+    return evenly(curve.sampled(0.2), _PARTS)

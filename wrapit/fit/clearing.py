@@ -39,7 +39,7 @@ def cleared(sketch: Sketch, limits: Limits, level: Level, keep: frozenset[int]) 
     helped stays as it is.
     """
     sketch = sketch.simplified(limits.shortest_mm)
-    sketch = zipped(sketch, limits, worths(sketch, sketch.faces, limits), keep)
+    sketch = zipped(sketch, limits, keep)
     sketch = _tidied(sketch.simplified(), limits, keep)
     refused: set[int] = set()
     for turn in range(_ROUNDS):

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wrapit.fit.sketch import STEP_MM, Sketch
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, locked
 
 if TYPE_CHECKING:
     import shapely
@@ -66,13 +67,21 @@ def faces_of(sketch: Sketch) -> Faces:
     edges = np.bincount(near[0][on_edge], minlength=len(numbers))
     # One face beside it: the other side is outside. None, and not within a face: a line by itself.
     outside = [n for n, of, on in zip(numbers, sides, edges, strict=True) if on == 1 or of == 0]
-    circles = [shapely.maximum_inscribed_circle(polygon, tolerance=_CIRCLE_MM) for polygon in polygons]
     faces = [
-        Face(polygon, frozenset(lines), np.array(circle.coords[0]), 2 * float(circle.length))
-        for polygon, lines, circle in zip(polygons, bounding, circles, strict=True)
+        Face(polygon, frozenset(lines), *_largest_circle(polygon.wkb))
+        for polygon, lines in zip(polygons, bounding, strict=True)
     ]
     faces.sort(key=lambda face: (round(face.inside_mm, 6), *np.round(face.centre, 6)))
     return Faces(tuple(faces), frozenset(outside))
+
+
+@lru_cache(maxsize=512)  # most faces of a drawing stay as they are from one change to the next
+def _largest_circle(polygon: bytes) -> tuple[FloatArray, float]:
+    """Centre (2,) and diameter of the largest circle inside a polygon, given as well-known binary."""
+    import shapely
+
+    radius = shapely.maximum_inscribed_circle(shapely.from_wkb(polygon), tolerance=_CIRCLE_MM)
+    return locked(radius.coords[0]), 2 * float(radius.length)
 
 
 def _inner_place(points: FloatArray) -> FloatArray:

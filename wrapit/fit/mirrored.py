@@ -32,13 +32,15 @@ def mirror_of(sketch: Sketch) -> Mirror:
     A mirrored figure has its axis along a principal axis of its lines, upright or level where all are alike.
     """
     numbers = sorted(sketch.lines)
-    curves = [sketch.lines[number].curve for number in numbers]
-    points = np.concatenate([curve.sampled(_STEP_MM) for curve in curves])
+    lines = [sketch.lines[number] for number in numbers]
+    points = np.concatenate([line.curve.sampled(_STEP_MM) for line in lines])
     xx, xy, _, yy = np.cov(points.T).ravel()
     principal = math.atan2(2 * xy, xx - yy) / 2
     across_mm = float(np.ptp(points, axis=0).max())
     angles = (math.pi / 2, 0.0, principal, principal + math.pi / 2)
-    images, share, axis = images_of(curves, angles, across_mm)
+    spread = np.array([line.spread for line in lines])
+    lengths = np.array([line.curve.length for line in lines])
+    images, share, axis = images_of(spread, lengths, angles, across_mm)
     if share < _SYMMETRIC:
         return Mirror({}, axis)
     pairs = {

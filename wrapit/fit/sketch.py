@@ -11,7 +11,8 @@ import numpy as np
 
 from wrapit.drawing.assembly import Piece, Placement, assemble
 from wrapit.drawing.model import Drawing, Removal
-from wrapit.geometry import BezierChain, FloatArray, joined
+from wrapit.drawing.reflection import spread
+from wrapit.geometry import BezierChain, FloatArray, joined, unit
 from wrapit.geometry.polyline import lengths
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 # How finely lines become chains of points: far below a wire's thickness. Half of it changes no circle inside
 # a face of the corpus by more than 0.01 mm.
 STEP_MM = 0.1
+# How finely lines are compared with one another: a tenth of the room that 18 AWG needs.
+_TRAIL_MM = 0.25
 # Directions at a node are those of the first so many mm: nearer, the drawing is unsteady.
 _LOOK_MM = 1.0
 
@@ -52,6 +55,20 @@ class Line:
         """Directions (2,) in which the line leaves its start and its end, over its first mm there."""
         points = self.curve.sampled(STEP_MM)
         return heading(points), heading(points[::-1])
+
+    @cached_property
+    def spread(self) -> FloatArray:
+        """Points (9, 2) at even distances along it."""
+        return spread(self.curve)
+
+    @cached_property
+    def trail(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Points (m, 2) at most 0.25 mm apart, how far along they are (m,) in mm, and unit directions (m, 2)."""
+        points = self.curve.sampled(_TRAIL_MM)
+        along = lengths(points)
+        # Chords alone are shorter than its bends, by 0.05 mm in some.
+        along *= self.curve.length / max(float(along[-1]), 1e-12)
+        return points, along, unit(np.gradient(points, axis=0))
 
     def reversed(self) -> Line:
         """The same line travelled the other way."""

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.fit.model import Limits
-from wrapit.fit.sketch import Sketch
-from wrapit.geometry import BezierChain, FloatArray, IntArray, unit
-from wrapit.geometry.arrays import norms
-from wrapit.geometry.polyline import lengths
+from wrapit.fit.sketch import Line, Sketch
+from wrapit.geometry import FloatArray, IntArray
 
-# How finely lines are compared (mm).
-_STEP_MM: Final = 0.25
 # They are too near at this share of the room that they need: what is made to have room isn't made again.
 _NEARER: Final = 0.98
 # They run along one another where directions differ by less than 12 degrees (its sine); tips taper by more.
@@ -47,11 +43,14 @@ class Stretch:
 
 
 def stretches(
-    sketch: Sketch, limits: Limits, density: Mapping[frozenset[int], float], keep: frozenset[int]
+    sketch: Sketch, near: Near, limits: Limits, density: Mapping[frozenset[int], float], keep: frozenset[int]
 ) -> list[Stretch]:
-    """Where lines run along others, the longest stretch first; the line is the lesser of the two."""
+    """Where lines run along others, the longest stretch first; the line is the lesser of the two.
+
+    `near` are the places of this sketch that are too near.
+    """
     room_mm = limits.room_mm
-    near = _parted(sketch, near_places(sketch, room_mm), PARTING * room_mm)
+    near = _parted(sketch, near, PARTING * room_mm)
     found: list[tuple[tuple[float, ...], Stretch]] = []
     for one, other, table in near.by_pair():
         if min(np.ptp(table[:, 0]), np.ptp(table[:, 1])) < _ALONG * room_mm:
@@ -95,6 +94,12 @@ class Near:
         along = self.at[chosen], self.other_at[chosen], self.gap[chosen]
         return Near(self.one[chosen], self.other[chosen], *along)
 
+    def with_(self, known: Near, same: NDArray[np.bool_]) -> Near:
+        """These places, and those known of lines that are the same, (n,) by number."""
+        still = known.where(same[known.one] & same[known.other])
+        names = [field.name for field in fields(Near)]
+        return Near(*(np.concatenate([getattr(self, name), getattr(still, name)]) for name in names))
+
     def by_pair(self) -> Iterator[tuple[int, int, FloatArray]]:
         """Each two lines that are near, and mm along the one, along the other and between, (k, 3)."""
         table = np.column_stack([self.at, self.other_at, self.gap])
@@ -103,30 +108,32 @@ class Near:
             yield one, other, table[which.ravel() == index]
 
 
-def near_places(sketch: Sketch, room_mm: float) -> Near:
-    """Places where lines run too near to one another, or to themselves."""
+def near_places(sketch: Sketch, room_mm: float, before: tuple[Sketch, Near] | None = None) -> Near:
+    """Places where lines run too near to one another, or to themselves.
+
+    What is known of the sketch as it was `before` holds for two lines that are both the same still.
+    """
     from scipy.spatial import cKDTree
 
+    old: Mapping[int, Line] = before[0].lines if before is not None else {}
     numbers = sorted(sketch.lines)
-    curves = [sketch.lines[n].curve for n in numbers]
-    points = [curve.sampled(_STEP_MM) for curve in curves]
-    every = np.concatenate(points)
-    owner = np.repeat(numbers, [len(each) for each in points])
-    at = np.concatenate([_along(curve, each) for curve, each in zip(curves, points, strict=True)])
-    pairs = cKDTree(every).query_pairs(_NEARER * room_mm, output_type="ndarray")
-    far = np.abs(at[pairs[:, 0]] - at[pairs[:, 1]]) > PARTING * room_mm
-    pairs = pairs[far | (owner[pairs[:, 0]] != owner[pairs[:, 1]])]
-    along = np.concatenate([unit(np.gradient(each, axis=0)) for each in points])
-    first, second = along[pairs[:, 0]], along[pairs[:, 1]]
-    pairs = pairs[np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) < _PARALLEL]
-    one, other = pairs[:, 0], pairs[:, 1]
-    return Near(owner[one], owner[other], at[one], at[other], norms(every[one] - every[other]))
-
-
-def _along(curve: BezierChain, points: FloatArray) -> FloatArray:
-    """Where along a curve its points are: chords alone are shorter than its bends, by 0.05 mm in some."""
-    chords = lengths(points)
-    return chords * (curve.length / max(float(chords[-1]), 1e-12))
+    trails = [sketch.lines[n].trail for n in numbers]
+    points, at, along = (np.concatenate(each) for each in zip(*trails, strict=True))
+    owner = np.repeat(numbers, [len(trail[0]) for trail in trails])
+    same = np.zeros(max(*numbers, *old, 0) + 1, dtype=bool)
+    same[[n for n in numbers if sketch.lines[n] is old.get(n)]] = True
+    fresh = np.flatnonzero(~same[owner])
+    reach_mm = _NEARER * room_mm
+    pairs = cKDTree(points[fresh]).sparse_distance_matrix(cKDTree(points), reach_mm, output_type="ndarray")
+    one, other, gap = fresh[pairs["i"]], pairs["j"], pairs["v"]
+    first, second = along[one], along[other]
+    # Two new places are found from either.
+    chosen = (one < other) | same[owner[other]]
+    chosen &= (np.abs(at[one] - at[other]) > PARTING * room_mm) | (owner[one] != owner[other])
+    chosen &= np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) < _PARALLEL
+    one, other = np.sort([one[chosen], other[chosen]], axis=0)
+    found = Near(owner[one], owner[other], at[one], at[other], gap[chosen])
+    return found if before is None else found.with_(before[1], same)
 
 
 def _parted(sketch: Sketch, near: Near, parting_mm: float) -> Near:
