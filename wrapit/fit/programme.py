@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from wrapit.fit.districts import parted, regions
+from wrapit.fit.districts import cuts_of, parted, regions
 from wrapit.fit.faces import Faces
 from wrapit.fit.merging.straightness import straight_on
 from wrapit.fit.model import Limits
@@ -125,10 +125,10 @@ def _in_one_piece(
         values = programme.solve(task.weights.nodes, _GAP, held).values
         if values is None:
             return None
-        apart = list(parted(task.sketch, _dropped(task, values)))
-        if not apart:
+        cuts = set(cuts_of(task.sketch, _dropped(task, values)))
+        if not cuts:
             return values
-        for part in apart:
+        for part in sorted(cuts, key=sorted):
             _add_hold(programme, task, part)
     return None
 
