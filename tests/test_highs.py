@@ -13,7 +13,7 @@ from wrapit.decomposition.exact.stage import solve_exactly
 from wrapit.decomposition.graph import pieces
 from wrapit.decomposition.model import Weights
 from wrapit.decomposition.problem import Problem
-from wrapit.highs import silent_stdout
+from wrapit.highs import Programme, silent_stdout
 
 WEIGHTS = Weights(0.1, 0.9, 0.1)
 BUDGET = 2_000_000
@@ -32,3 +32,20 @@ def test_integer_programming_prints_nothing(capfd: pytest.CaptureFixture[str]) -
     assert answer.proven
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")
+
+
+def test_a_programme_that_grew_is_the_programme_built_at_once() -> None:
+    """Rows may name columns that come later: what an earlier solution took from them is not kept."""
+    grown, whole = Programme(), Programme()
+    grown.add_column(("a",), 1.0)
+    row = {("a",): 1.0, ("b",): 1.0}
+    grown.add_row(row, low=1.0)
+    assert grown.solve(100).values == {("a",): 1.0}
+    grown.add_row({("a",): 1.0}, high=0.5)
+    assert not grown.solve(100).feasible
+    for each in (grown, whole):
+        each.add_column(("a",), 1.0)
+        each.add_column(("b",), 0.5)
+    whole.add_row(row, low=1.0)
+    whole.add_row({("a",): 1.0}, high=0.5)
+    assert grown.solve(100).values == whole.solve(100).values == {("a",): 0.0, ("b",): 1.0}

@@ -7,11 +7,13 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.decomposition.asking import solved
 from tests.decomposition.drawings import drawing_of, lotus
 from wrapit.decomposition.json_file import decomposition_json
-from wrapit.drawing.reflection import mirror_images
+from wrapit.drawing.reflection import NO_IMAGE, Axis, images_of, mirror_images
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.4])
@@ -48,3 +50,25 @@ def test_the_file_speaks_of_symmetry_where_it_was_asked_for() -> None:
     assert kept["weights"]["symmetry"] == 0.5
     total = terms["complexity"] + 0.1 * terms["smoothness_rad"] + 0.9 * terms["robustness"]
     assert terms["total"] == pytest.approx(total + 0.5 * terms["asymmetry"])
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 10**6), st.integers(1, 30), st.floats(0, math.pi), st.booleans())
+def test_images_are_those_that_all_pairs_give(seed: int, count: int, angle: float, mirrored: bool) -> None:
+    """Each line beside each: the nearest in the mirror, if each is the other's and near enough."""
+    rng = np.random.default_rng(seed)
+    lines = rng.uniform(-20, 20, (count, 1, 2)) + rng.uniform(-4, 4, (count, 9, 2)).cumsum(axis=1)
+    if mirrored:
+        flipped = Axis(np.zeros(2), angle).mirrored(lines) + rng.normal(0, 0.3, lines.shape)
+        lines = rng.permutation(np.concatenate([lines, flipped]))
+    lengths = np.ones(len(lines))
+    images, share, axis = images_of(lines, lengths, [angle, 0.0], 60.0)
+    seen = axis.mirrored(lines)
+    far = np.array([[min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) for b in lines] for a in seen])
+    nearest = far.argmin(axis=1)
+    expected = [
+        f if nearest[f] == e and far[e, f] <= 0.04 * 60.0 else NO_IMAGE
+        for e, f in enumerate(nearest.tolist())
+    ]
+    assert [h // 2 if h != NO_IMAGE else NO_IMAGE for h in images[::2]] == expected
+    assert share == pytest.approx(np.mean([f != NO_IMAGE for f in expected]))

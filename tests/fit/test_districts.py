@@ -13,7 +13,7 @@ from tests.bench.large_drawings import drawing_text
 from wrapit.config import Config
 from wrapit.drawing.stage import trace
 from wrapit.fit import programme
-from wrapit.fit.districts import parted, regions
+from wrapit.fit.districts import cuts_of, parted, regions
 from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.programme import Choice, Task, Weights, choose
@@ -42,6 +42,30 @@ def test_regions_cover_all_lines(places: list[tuple[float, float]], size: int, m
     for region in found:
         assert {pairs.get(n, n) for n in region} == region
         assert len({frozenset((n, pairs.get(n, n))) for n in region}) <= size
+
+
+@settings(max_examples=100)
+@given(
+    st.lists(st.tuples(st.integers(0, 11), st.integers(0, 11)), min_size=1, max_size=24),
+    st.sets(st.integers(0, 23)),
+)
+def test_nothing_leads_out_of_a_cut(ends: list[tuple[int, int]], dropped: set[int]) -> None:
+    """Each cut is left by dropped lines alone, and all parts but one lie within one cut at least."""
+    curve = straight((0.0, 0.0), (5.0, 0.0))
+    lines = {n: Line(a, b, curve, frozenset((n,))) for n, (a, b) in enumerate(ends)}
+    sketch = Sketch({node: np.zeros(2) for pair in ends for node in pair}, lines)
+    gone = dropped & lines.keys()
+    if len(gone) == len(lines):
+        return
+    cuts, apart = list(cuts_of(sketch, gone)), parted(sketch, gone)
+    for cut in cuts:
+        crossing = {n for n, line in lines.items() if (line.start in cut) != (line.end in cut)}
+        assert crossing <= gone
+        left = [line for n, line in lines.items() if n not in gone]
+        assert any({line.start, line.end} <= cut for line in left)
+        assert any(not {line.start, line.end} & cut for line in left)
+    assert all(any(part <= cut for cut in cuts) for part in apart)
+    assert bool(cuts) == bool(apart)
 
 
 def _task(folder: Path, kind: str, segments: int) -> Task:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 from hypothesis import given, settings
@@ -12,10 +13,9 @@ from tests.bench.fit_judge import fitness
 from tests.decomposition.drawings import drawing_of
 from tests.fit.drawn import KINDS, config, drawn
 from wrapit.drawing.model import Drawing
-from wrapit.fit.faces import faces_of
 from wrapit.fit.limits import limits_of
 from wrapit.fit.sketch import Sketch
-from wrapit.fit.worth import worths
+from wrapit.fit.zipping.stretches import Near, near_places
 from wrapit.fit.zipping.zipped import zipped
 
 LIMITS = limits_of(config("bold", 18), "bold")
@@ -54,6 +54,29 @@ def test_zipping_crosses_nothing(kind: str, seed: int) -> None:
     seen = fitness(after, LIMITS.diameter_mm, LIMITS.radius_mm)
     assert seen.crossings <= before.crossings
     assert seen.pieces == before.pieces
+
+
+@SOME
+@given(kinds, st.integers(0, 30), st.data())
+def test_what_is_known_of_nearness_holds_for_lines_that_stay(
+    kind: str, seed: int, data: st.DataObject
+) -> None:
+    """Places too near, found anew and from those of the sketch before some lines changed."""
+    before = Sketch.of(drawn(kind, seed, 40.0)).simplified()
+    numbers = sorted(before.lines)
+    some = st.sets(st.sampled_from(numbers), max_size=len(numbers) - 1)
+    gone, moved = data.draw(some), data.draw(some)
+    bent = {
+        n: replace(before.lines[n], curve=before.lines[n].curve.mapped(np.eye(2), (0.3, 0.1))) for n in moved
+    }
+    after = before.changed(gone, bent)
+    anew = near_places(after, LIMITS.room_mm)
+    from_known = near_places(after, LIMITS.room_mm, (before, near_places(before, LIMITS.room_mm)))
+    assert _rows(from_known) == _rows(anew)
+
+
+def _rows(near: Near) -> list[tuple[float, ...]]:
+    return sorted(zip(near.one, near.other, near.at, near.other_at, near.gap, strict=True))
 
 
 def test_both_ends_of_a_lens_are_zipped() -> None:

@@ -43,7 +43,7 @@ def cuts_of(sketch: Sketch, dropped: set[int]) -> Iterator[frozenset[int]]:
     """Sets of nodes that no line that is left leads out of; none where it hangs together.
 
     A part, then it with all that its dropped lines lead to, and so on until the largest part is reached, and
-    the same from there: each is cut off by other lines (nested cuts; Koch and Martin 1998, for Steiner trees).
+    the same from there: each is cut off by other lines (nested cuts; Koch and Martin 1998, Steiner trees).
     """
     joint, (largest, *others) = _parts(sketch, dropped)
 

@@ -63,7 +63,7 @@ class Line:
 
     @cached_property
     def trail(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Points (m, 2) at most 0.25 mm apart, how far along they are (m,) in mm, and unit directions (m, 2)."""
+        """Points (m, 2) at most 0.25 mm apart, mm along the line to each (m,), and unit directions there."""
         points = self.curve.sampled(_TRAIL_MM)
         along = lengths(points)
         # Chords alone are shorter than its bends, by 0.05 mm in some.
