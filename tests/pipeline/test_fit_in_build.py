@@ -28,7 +28,7 @@ from wrapit.pipeline.build import build
 from wrapit.pipeline.reads import takes_fit
 from wrapit.pipeline.summary import finding_lines, fit_line, summary_lines
 from wrapit.pipeline.trying import offering, proposing, remedies
-from wrapit.pipeline.trying.offering import offer
+from wrapit.pipeline.trying.offering import counted, offer
 from wrapit.pipeline.trying.proposing import propose_makeable
 from wrapit.pipeline.trying.remedies import held_share, what_would_do
 from wrapit.pipeline.trying.tried import bolder, read, tried
@@ -213,10 +213,15 @@ def test_the_gentlest_that_does_is_offered(
 ) -> None:
     path, loaded = tmp_path / "piece.svg", load_config(config)
     taken = leaving_out({"bold": (curl,)})
-    assert offer(loaded, path).startswith("with fit: bold: no tight bend")
+    made = counted(loaded, path)
+    assert made is not None
+    assert offer(loaded, path, made).startswith("with fit: bold: no tight bend")
     assert taken == ["gentle", "bold"]
     taken.clear()
-    assert offer(loaded.model_copy(update={"fit": "gentle"}), path).startswith("with fit: bold: ")
+    gently = loaded.model_copy(update={"fit": "gentle"})
+    made = counted(gently, path)
+    assert made is not None
+    assert offer(gently, path, made).startswith("with fit: bold: ")
     assert taken == ["gentle", "bold"]
 
 
@@ -224,7 +229,10 @@ def test_what_does_not_help_is_not_offered(
     config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, leaving_out: Callable[..., list[str]]
 ) -> None:
     leaving_out({})
-    assert offer(load_config(config), tmp_path / "piece.svg") == ""
+    loaded, path = load_config(config), tmp_path / "piece.svg"
+    made = counted(loaded, path)
+    assert made is not None
+    assert offer(loaded, path, made) == ""
     result = build(config, tmp_path / "out", until="wires")
     assert "tight-bend" in {each["code"] for each in result.report["findings"]}
     assert not any("fit:" in each["remedy"] for each in result.report["findings"])
@@ -233,7 +241,7 @@ def test_what_does_not_help_is_not_offered(
         raise WireError("it can't be bent")
 
     monkeypatch.setattr(fit_stage, "make_fit", fails)
-    assert offer(load_config(config), tmp_path / "piece.svg") == ""
+    assert offer(loaded, path, made) == ""
 
 
 @given(
@@ -310,8 +318,8 @@ def test_init_says_that_it_is_made_fit(
 def test_what_it_would_do_is_a_comment(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(proposing, "held_share", lambda config, path: 1.0)
     monkeypatch.setattr(proposing, "_too_tight", lambda config, path: 1.0)
-    made = {"off": offering._Made(0, 9, 0.0), "gentle": offering._Made(0, 6, 0.04)}
-    monkeypatch.setattr(offering, "_made", lambda config, path: made[config.fit])
+    made = {"off": offering.Counts(0, 9, 0.0), "gentle": offering.Counts(0, 6, 0.04)}
+    monkeypatch.setattr(offering, "counted", lambda config, path: made[config.fit])
     proposal, _ = propose_makeable(config.parent / "piece.svg", config.parent)
     assert "# fit: gentle   # 6 wires instead of 9, 4% of the lines left out\n" in proposal.text()
     (config.parent / "new.yaml").write_text(proposal.text(), encoding="utf-8")

@@ -11,7 +11,7 @@ from typing import Final
 from wrapit.config import Config
 from wrapit.errors import Finding, WrapItError
 from wrapit.pipeline.cache.remembering import Outcome
-from wrapit.pipeline.trying.tried import FitLevel, bolder, tried, with_fit
+from wrapit.pipeline.trying.tried import FitLevel, bolder, is_tight, tried, with_fit
 from wrapit.pipeline.work import Work
 
 # What a drawing of wider bends and fewer lines mends.
@@ -24,8 +24,8 @@ _NOTHING: Final = 0.005
 
 
 @dataclass(frozen=True)
-class _Made:
-    """What counts of a trial; less of both is better."""
+class Counts:
+    """What counts of a piece as it was made or tried; fewer bends and wires are better."""
 
     tight_bends: int
     wires: int
@@ -41,8 +41,14 @@ def with_offers(work: Work) -> list[Finding]:
     if not asking or not bolder(work.config):
         return work.findings
     key = work.key("offer")
-    made = work.remember(key, lambda: Outcome(blocks={"said": offer(work.config, work.drawing_path)}), None)
-    said = made.blocks["said"]
+
+    def offered() -> Outcome:
+        tight = [each for each in work.outcomes["wires"].findings if is_tight(each)]
+        left_out = work.fitted.costs.left_out if work.fitted is not None else 0.0
+        made = Counts(len(tight), len(work.wires), left_out)
+        return Outcome(blocks={"said": offer(work.config, work.drawing_path, made)})
+
+    said = work.remember(key, offered, None).blocks["said"]
     if not said:
         return work.findings
     return [
@@ -53,21 +59,18 @@ def with_offers(work: Work) -> list[Finding]:
     ]
 
 
-def offer(config: Config, path: Path) -> str:
+def offer(config: Config, path: Path, before: Counts) -> str:
     """What the gentlest `fit` does that leaves no bend too tight, or else the one that leaves the fewest.
 
-    Empty where none leaves fewer, nor as many with fewer wires.
+    `before` is what the config makes. Empty where none leaves fewer bends, nor as many with fewer wires.
 
     >>> from wrapit.config import Config
-    >>> offer(Config(drawing="x.svg", fit="bold"), Path("x.svg"))
+    >>> offer(Config(drawing="x.svg", fit="bold"), Path("x.svg"), Counts(1, 2, 0.0))
     ''
     """
-    before = _made(config, path) if bolder(config) else None
-    if before is None:
-        return ""
-    best: tuple[FitLevel, _Made] | None = None
+    best: tuple[FitLevel, Counts] | None = None
     for level in bolder(config):
-        made = _made(with_fit(config, level), path)
+        made = counted(with_fit(config, level), path)
         if made is not None and _gain(made) < _gain(best[1] if best is not None else before):
             best = level, made
         if best is not None and best[1].tight_bends == 0:
@@ -77,7 +80,7 @@ def offer(config: Config, path: Path) -> str:
 
 def gain_of(config: Config, path: Path, level: FitLevel) -> str:
     """What a level would do to a piece, in few words; empty where it has neither wires nor bends less."""
-    before, made = _made(config, path), _made(with_fit(config, level), path)
+    before, made = counted(config, path), counted(with_fit(config, level), path)
     if before is None or made is None or _gain(made) >= _gain(before):
         return ""
     return _told(before, made)
@@ -91,26 +94,26 @@ def _asking(findings: Sequence[Finding]) -> set[Finding]:
     return tight | crowded if len(crowded) >= _SEVERAL else tight
 
 
-def _made(config: Config, path: Path) -> _Made | None:
-    """None where it can't be made: that is no remedy."""
+def counted(config: Config, path: Path) -> Counts | None:
+    """What counts of a piece, tried; None where it can't be made: that is no remedy."""
     try:
         found = tried(config, path)
     except WrapItError:
         return None
     left_out = found.fitted.costs.left_out if found.fitted is not None else 0.0
-    return _Made(len(found.tight_bends), len(found.wires), left_out)
+    return Counts(len(found.tight_bends), len(found.wires), left_out)
 
 
-def _gain(made: _Made) -> tuple[int, int]:
+def _gain(made: Counts) -> tuple[int, int]:
     return made.tight_bends, made.wires
 
 
-def _told(before: _Made, then: _Made) -> str:
+def _told(before: Counts, then: Counts) -> str:
     """In few words.
 
-    >>> _told(_Made(3, 9, 0.0), _Made(0, 6, 0.081))
+    >>> _told(Counts(3, 9, 0.0), Counts(0, 6, 0.081))
     'no tight bend, 6 wires instead of 9, 8% of the lines left out'
-    >>> _told(_Made(3, 9, 0.0), _Made(1, 9, 0.0))
+    >>> _told(Counts(3, 9, 0.0), Counts(1, 9, 0.0))
     '1 tight bend instead of 3'
     """
     parts = []

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
-from wrapit.config import Config
+from wrapit.config import Config, TracingConfig
 from wrapit.pipeline.reads import takes_fit
 
 if TYPE_CHECKING:
@@ -33,7 +35,12 @@ class Tried:
     @property
     def tight_bends(self) -> tuple[Finding, ...]:
         """Those that the metal doesn't take."""
-        return tuple(each for each in self.findings if each.code == "tight-bend" and each.level != "note")
+        return tuple(each for each in self.findings if is_tight(each))
+
+
+def is_tight(finding: Finding) -> bool:
+    """Whether it tells of a bend that the metal doesn't take."""
+    return finding.code == "tight-bend" and finding.level != "note"
 
 
 def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
@@ -41,15 +48,29 @@ def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
 
     Raises the WrapItError of the stage that fails.
     """
-    from wrapit.drawing.stage import trace
-
-    drawing, _ = trace(path, config.reading, config.size)
+    drawing = _traced(path, _saved(path), config.reading.model_dump_json(), config.size)
     if not takes_fit(config):
         return drawing, None
     from wrapit.fit.stage import make_fit
 
     fitted, _ = make_fit(drawing, config)
     return fitted.drawing, fitted
+
+
+@lru_cache(maxsize=4)  # trials of one piece differ in little that its drawing depends on
+def _traced(path: Path, saved: tuple[int, ...], reading: str, size_mm: float | None) -> Drawing:
+    from wrapit.drawing.stage import trace
+
+    del saved  # it is what the drawing is known by
+    return trace(path, TracingConfig.model_validate_json(reading), size_mm)[0]
+
+
+def _saved(path: Path) -> tuple[int, ...]:
+    """What tells that a file is another now; nothing of one that isn't there."""
+    with contextlib.suppress(OSError):  # tracing says what is wrong with it
+        about = path.stat()
+        return about.st_mtime_ns, about.st_size, about.st_ino
+    return ()
 
 
 def tried(config: Config, path: Path) -> Tried:
