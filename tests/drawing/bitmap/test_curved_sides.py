@@ -43,6 +43,59 @@ def test_a_step_with_a_curved_side_has_both_its_corners(traced, radius, side, tu
         assert min(np.linalg.norm(place - corner) for place in places) < 0.25 * width
 
 
+def hook(side: float, turns: tuple[float, float], radius: float, width: float) -> tuple[Points, Points]:
+    """A straight side between two long arcs, which it meets at turns of one sense; and where it meets them.
+
+    The line turns everywhere, so that its corners stand in a crowd; with a `radius` they are round.
+    """
+    first, second = (math.radians(angle) for angle in turns)
+    # Length and turn of each part: an arc, a corner, the side, a corner, an arc. (Arcs bend the other way.)
+    parts = [
+        (12.0, -12 / 5),
+        (radius * first, first),
+        (side, 0.0),
+        (radius * second, second),
+        (12.0, -12 / 5),
+    ]
+    points, course, corners = [np.zeros(2)], 0.0, []
+    for k, (length, by) in enumerate(parts):
+        if k in (1, 3):
+            corners.append(points[-1])
+        for _ in range(80):
+            course += by / 160
+            points.append(points[-1] + length / 80 * np.array([math.cos(course), math.sin(course)]))
+            course += by / 160
+    chain = np.array(points) * width
+    shift = CENTRE - (chain.min(axis=0) + chain.max(axis=0)) / 2
+    return chain + shift, np.array(corners) * width + shift
+
+
+HOOKS = st.tuples(st.floats(66, 80), st.floats(66, 80))
+
+
+@few
+@given(st.floats(1.4, 2), HOOKS, st.floats(9, 14), TURNS)
+def test_two_close_corners_of_one_sense_between_arcs_are_found(traced, side, turns, width, turn):
+    points, corners = hook(side, turns, 0.0, width)
+    drawing, _ = traced([turned(points, turn)], width)
+    assert degrees(drawing) == [1, 1, 2, 2]
+    places = [
+        in_pixels(drawing, drawing.junctions[j].point)
+        for j, ends in enumerate(drawing.half_edges())
+        if len(ends) == 2
+    ]
+    for corner in turned(corners, turn):
+        assert min(np.linalg.norm(place - corner) for place in places) < 0.25 * width
+
+
+@few
+@given(st.floats(0.4, 1.2), HOOKS, st.floats(0.5, 0.9), st.floats(9, 14), TURNS)
+def test_two_close_bends_between_arcs_are_no_corners(traced, side, turns, radius, width, turn):
+    points, _ = hook(side, turns, radius, width)
+    drawing, _ = traced([turned(points, turn)], width)
+    assert degrees(drawing) == [1, 1]
+
+
 def test_edges_alone_tell_corners_between_arcs():
     width = 10.0
     points, corners = step(2.0, 1.8, 95, width)

@@ -8,7 +8,19 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import ACROSS, SHIFTS, TURNS, WIDTHS, few, turned
+from tests.drawing.bitmap.figures import (
+    ACROSS,
+    CENTRE,
+    SHIFTS,
+    SIZE_PX,
+    TURNS,
+    WIDTHS,
+    few,
+    in_pixels,
+    junction_near,
+    line,
+    turned,
+)
 
 
 @few
@@ -23,3 +35,35 @@ def test_tangents_at_a_crossing_are_those_of_the_strokes(traced, angle, width, t
         lines = [np.array([math.cos(-a), math.sin(-a)]) for a in (turn, turn + math.radians(angle))]
         off = min(math.asin(min(1.0, abs(away[0] * d[1] - away[1] * d[0]))) for d in lines)
         assert math.degrees(off) < 1.5  # 1.18 at 30 degrees and strokes of 4 px, the thinnest
+
+
+@few
+@given(st.floats(2.6, 6), st.floats(6, 20), st.integers(0, 3))
+def test_an_arrow_s_tip_at_the_picture_s_side_is_where_its_strokes_meet(traced, arm, width, quarter):
+    # The side of the picture is the edge of one arm's ink.
+    right, top = SIZE_PX - 0.5 - width / 2, 3 * width
+    tip = (right, top)
+    arrow = [
+        line((right - arm * width, top), tip),
+        line((right, top + arm * width), tip),
+        line((right - 250, top + 250), tip),
+    ]
+    about = quarter * math.pi / 2
+    drawing, _ = traced([turned(each + 0.5, about) - 0.5 for each in arrow], width)
+    found = junction_near(drawing, 3)
+    expected = turned(np.array([tip]) + 0.5, about)[0] - 0.5
+    assert np.linalg.norm(found - expected) < 0.12 * width
+
+
+@few
+@given(st.floats(1.2, 1.6), st.floats(60, 70), st.floats(9, 15), TURNS)
+def test_an_end_that_bends_one_way_and_back_is_where_its_ink_ends(traced, radius, bend, width, turn):
+    a = np.linspace(0, math.radians(bend), 60)
+    arc = radius * width * np.column_stack([np.sin(a), 1 - np.cos(a)])
+    back = 2 * arc[-1] - arc[::-1]
+    wave = np.vstack([arc, back[1:], back[-1] + np.array([[9 * width, 0.0]])])
+    wave += CENTRE - (wave.min(axis=0) + wave.max(axis=0)) / 2
+    drawing, _ = traced([turned(wave, turn)], width)
+    places = [in_pixels(drawing, junction.point) for junction in drawing.junctions]
+    end = turned(wave, turn)[0]
+    assert min(np.linalg.norm(place - end) for place in places) < 0.1 * width

@@ -182,7 +182,7 @@ def edges(
     for first in range(0, len(points), _AT_ONCE):
         part = slice(first, first + _AT_ONCE)
         origins = np.concatenate([points[part]] * 2)
-        levels = sample(ink.grey, origins, np.concatenate([-normals[part], normals[part]]), offsets)
+        levels = sample(ink, origins, np.concatenate([-normals[part], normals[part]]), offsets)
         levels -= ink.half
         if bridged:
             levels = _closed(levels, int(bridged / step))
@@ -210,10 +210,9 @@ def _first_crossing(levels: NDArray[np.float32], step: float) -> FloatArray:
     return np.where(found, (np.maximum(at - 1, 0) + share) * step, np.nan)
 
 
-def sample(
-    grey: NDArray[np.uint8], points: FloatArray, directions: FloatArray, offsets: FloatArray
-) -> NDArray[np.float32]:
-    """Bilinear grey levels (n, k) at offsets from points (n, 2); outside the picture its rim continues."""
+def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatArray) -> NDArray[np.float32]:
+    """Bilinear grey levels (n, k) at offsets from points (n, 2); outside the picture all is paper."""
+    grey = ink.framed
     height, width = grey.shape
     x, y = (_clipped(points[:, k], offsets, directions[:, k], side) for k, side in ((0, width), (1, height)))
     column, row = x.astype(np.int32), y.astype(np.int32)
@@ -235,9 +234,9 @@ def sample(
 
 
 def _clipped(at: FloatArray, offsets: FloatArray, direction: FloatArray, side: int) -> NDArray[np.float32]:
-    """One coordinate (n, k) at offsets from places (n,), within a picture's side."""
+    """One coordinate (n, k) at offsets from places (n,), in the framed picture of this side."""
     found = offsets * direction[:, None]
-    found += at[:, None]
+    found += at[:, None] + 1
     np.maximum(found, 0, out=found)
     np.minimum(found, side - 1.001, out=found)
     return found.astype(np.float32)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +43,11 @@ class Ink:
     def half(self) -> float:
         """Grey level halfway between paper and ink: the edge of a stroke."""
         return (self.paper + self.ink) / 2
+
+    @cached_property
+    def framed(self) -> GreyImage:
+        """The grey in a frame of paper, a pixel broad: the picture's side is an edge of the ink there."""
+        return np.pad(self.grey, 1, constant_values=round(self.paper))
 
 
 def find_ink(grey: GreyImage, where: str) -> Ink:

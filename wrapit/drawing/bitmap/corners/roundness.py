@@ -86,7 +86,7 @@ def _outer_edge(
     # Inside of the deepest arc there is ink.
     offsets = np.arange(0, (start + tip * (2 * _MOST + 1)) * width_px, step)
     origins = apex + width_px * (aside[:, None] * across + start * outwards)
-    levels = sample(ink.grey, origins, np.broadcast_to(-outwards, origins.shape), offsets) - ink.half
+    levels = sample(ink, origins, np.broadcast_to(-outwards, origins.shape), offsets) - ink.half
     dark = levels < 0
     at = np.argmax(dark, axis=1)
     rows = np.arange(len(aside))

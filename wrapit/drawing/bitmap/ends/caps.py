@@ -56,26 +56,11 @@ def find_cap(start: FloatArray, ahead: FloatArray, width_px: float, ink: Ink) ->
 
 
 def _ends(starts: FloatArray, ahead: FloatArray, steps: FloatArray, ink: Ink) -> NDArray[np.float64]:
-    """How far ahead of each point (n, 2) the ink or the picture ends; nan where it doesn't."""
-    levels = sample(ink.grey, starts, np.broadcast_to(ahead, starts.shape), steps) - ink.half
+    """How far ahead of each point (n, 2) the ink (or the picture) ends; nan where it doesn't."""
+    levels = sample(ink, starts, np.broadcast_to(ahead, starts.shape), steps) - ink.half
     light = levels > 0
     at = np.argmax(light, axis=1)
     rows = np.arange(len(starts))
     before, after = levels[rows, np.maximum(at - 1, 0)], levels[rows, at]
     share = np.divide(-before, after - before, out=np.zeros_like(before), where=after != before)
-    found = np.where(light[rows, at] & (at > 0), steps[np.maximum(at - 1, 0)] + share * steps[1], np.inf)
-    sides = _to_the_side(starts, ahead, ink.grey.shape)
-    ends = np.minimum(found, np.where(sides <= steps[-1], sides, np.inf))
-    return np.where(np.isfinite(ends) & ~light[:, 0], ends, np.nan)
-
-
-def _to_the_side(starts: FloatArray, ahead: FloatArray, shape: tuple[int, ...]) -> FloatArray:
-    """How far ahead the picture's outermost pixels end."""
-    with np.errstate(divide="ignore"):
-        ways = [
-            np.where(ahead[k] > 0, side - 0.5 - starts[:, k], -0.5 - starts[:, k]) / ahead[k]
-            if ahead[k]
-            else np.full(len(starts), np.inf)
-            for k, side in ((0, shape[1]), (1, shape[0]))
-        ]
-    return np.minimum(*ways)
+    return np.where(light[rows, at] & (at > 0), steps[np.maximum(at - 1, 0)] + share * steps[1], np.nan)

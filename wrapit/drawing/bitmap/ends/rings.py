@@ -87,12 +87,12 @@ def _ring(line: Line, stem_px: float, ink: Ink, width_px: float) -> FloatArray |
     if centre is None:
         return None
     for _ in range(3):
-        dark = sample(ink.grey, np.broadcast_to(centre, rays.shape), rays, steps) <= ink.half
+        dark = sample(ink, np.broadcast_to(centre, rays.shape), rays, steps) <= ink.half
         hole = _first(dark, steps)
         if not np.isfinite(hole).all() or hole.max() > _HOLE * width_px:
             return None
         centre = centre + 2 * (hole[:, None] * rays).mean(axis=0)
-    levels = sample(ink.grey, np.broadcast_to(centre, rays.shape), rays, steps) - ink.half
+    levels = sample(ink, np.broadcast_to(centre, rays.shape), rays, steps) - ink.half
     hole = _crossed(levels, levels <= 0, steps)
     outside = _crossed(levels, (levels > 0) & (steps > hole[:, None]), steps)
     broad = float(np.nanmedian(outside - hole))

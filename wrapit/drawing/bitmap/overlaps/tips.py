@@ -162,7 +162,7 @@ def _sides(arms: tuple[Arm, Arm], walked: FloatArray, ink: Ink, width_px: float)
 def _is_tip(apex: FloatArray, ahead: FloatArray, mitre: float, ink: Ink, width_px: float) -> bool:
     """Whether the ink ends at an apex, or tapers from there on for as long as a mitre."""
     steps = np.arange(0.0, _STEM * width_px, 0.5)
-    light = np.flatnonzero(sample(ink.grey, apex[None], ahead[None], steps)[0] > ink.half)
+    light = np.flatnonzero(sample(ink, apex[None], ahead[None], steps)[0] > ink.half)
     if not len(light):
         return False
     reach = float(steps[light[0]])
@@ -172,5 +172,5 @@ def _is_tip(apex: FloatArray, ahead: FloatArray, mitre: float, ink: Ink, width_p
         return False
     across = np.array([-ahead[1], ahead[0]])
     offsets = np.arange(-width_px, width_px, 0.5)
-    levels = sample(ink.grey, (apex + reach / 2 * ahead)[None], across[None], offsets)[0]
+    levels = sample(ink, (apex + reach / 2 * ahead)[None], across[None], offsets)[0]
     return float((levels <= ink.half).mean()) * 2 < _TAPERED
