@@ -13,6 +13,7 @@ from wrapit.geometry.arclength import ArcLength
 from wrapit.kernel.interference import common_mm3
 from wrapit.kernel.measures import box_mm, count_solids, is_valid, size_mm, volume_mm3
 from wrapit.kernel.round_wires.heights import HEIGHT_TOLERANCE_MM, smooth_heights
+from wrapit.kernel.round_wires.spines import Spine
 from wrapit.kernel.round_wires.sweeps import round_wire, torus
 
 D = 1.0237
@@ -78,6 +79,17 @@ def test_lifted_centreline_keeps_x_and_y_and_reaches_its_heights() -> None:
     assert (points[:, 2] > wanted - 0.02).all(), "rounding never lowers a wire into the one below"
     assert points[:, 2].max() == pytest.approx(1.0, abs=0.02)
     assert np.abs(np.diff(points[:, 2], 2)).max() < 0.02, "no kinks"
+
+
+@pytest.mark.parametrize("beside_mm", [0.0, 1e-9, 2e-7, 5e-7, 1e-5, 1e-3])
+def test_a_lift_may_begin_next_to_a_joint(beside_mm: float) -> None:
+    """A patch narrower than what patches are sewn within closed no skin."""
+    lifts = ((0.0, 0.0), (8.0, 0.0), (10.5, D), (14.0, D), (16.5, 0.0), (30.0, 0.0))
+    kinks = Spine(from_chain(line((0, 0), (30, 0))), lifts, D).breaks[1:-1]
+    for joint_mm in kinks[::3] + beside_mm:
+        parts = [line((0, 0), (joint_mm, 0)).points, line((joint_mm, 0), (30, 0)).points]
+        made = round_wire(from_chain(BezierChain(np.concatenate(parts))), D, lifts, "wire-01")
+        assert made.solid is not None, made.flaw
 
 
 def test_crossing_wires_dont_touch() -> None:

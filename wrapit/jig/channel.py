@@ -31,7 +31,7 @@ CHANNEL_SLACK_MM = 1.2e-3
 SIDES: Final[dict[Side, float]] = {"left": 1.0, "right": -1.0}
 # How many groups of wires are remembered with what was measured of them, from one kind of jig to the next? As
 # many as are with their walls (`walls_and_pins`).
-_REMEMBERED = 12
+_REMEMBERED = 100
 
 
 @dataclass(frozen=True, eq=False)

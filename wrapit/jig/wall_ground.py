@@ -35,7 +35,7 @@ SIMPLER_MM = 5e-4
 CORE_MM = 1.2
 BACK_MM = 1.0
 # How many spans are remembered with their ground, from one round of planning to the next.
-_REMEMBERED = 1000
+_REMEMBERED = 4000
 # Where one looks for the wall beside a turn: TOUCH behind the place of its face, deeper than polygons err
 # (1e-3 mm), far less than any wall is wide. Each FACE_STEP where support is measured or holes are placed
 # (30 % up or down moves support by 0.001), each ROUGH_STEP where a wall is only told from none, or a loss is

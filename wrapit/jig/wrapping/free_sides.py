@@ -16,7 +16,7 @@ STEP_MM = 0.5
 # Free ground ends this far from a wall's own ends, so that it doesn't cut into them where the wire bends.
 APART_MM = 1.0
 # How many bands are remembered from one round of planning to the next: those of the largest piece.
-_REMEMBERED = 1000
+_REMEMBERED = 4000
 
 
 def free_sides(channels: Channels, held: Iterable[Turn], room_mm: float) -> Any:

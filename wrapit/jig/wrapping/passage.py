@@ -25,7 +25,7 @@ BEYOND_MM = 0.3
 # (3e-18 mm²) and crumbs (0.1 by 3e-3 mm) between them round tight turns, which would be holes in a wall.
 CRUMB_MM = OVER_MM
 # How many spans are remembered from one round of planning to the next: those of the largest piece.
-_REMEMBERED = 1000
+_REMEMBERED = 4000
 
 
 def passage(channels: Channels, held: Sequence[Turn], config: JigConfig) -> Any:
