@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from shapely import Polygon
 
-from wrapit.geometry import Loop, Region
+from wrapit.geometry import Line, Loop, Region
 from wrapit.geometry.outlines.loops import (
     rounded_rectangle,
 )
@@ -26,10 +26,14 @@ def test_where_no_exact_outline_is_found_lines_take_its_place() -> None:
     def wrong(region: Region, distance_mm: float) -> tuple[Region, ...]:
         return offset_region(region, 2 * distance_mm)
 
+    def collapsed(_: Region, __: float) -> tuple[Region, ...]:
+        there, back = (0.0, 0.0), (10.0, 0.0)
+        return (Region(Loop((Line(there, back), Line(back, there)))),)
+
     true = moved_outline(loop, 0.1, offset_region)
     assert true is not None
     assert true.exact
-    for offset in (fails, wrong):
+    for offset in (fails, wrong, collapsed):
         plain = moved_outline(loop, 0.1, offset)
         assert plain is not None
         assert not plain.exact

@@ -18,7 +18,7 @@ from wrapit.errors import Finding, JigError, UnheldError
 from wrapit.geometry import Line
 from wrapit.jig.contours import Contour, FlatDrawing
 from wrapit.jig.kinds import JIGS
-from wrapit.jig.made import GuidePage, JigMaker, Made, View, Wires
+from wrapit.jig.made import Each, GuidePage, JigMaker, Made, View, Wires, one_by_one
 from wrapit.pages.model import Paragraph, text
 from wrapit.pipeline import build as building
 from wrapit.pipeline import stages
@@ -124,7 +124,7 @@ def test_when_all_kinds_would_hold_too_little_nothing_is_made(
     assert not (tmp_path / "out").exists()
 
 
-def _paper(wires: Wires, _: Config) -> Made:
+def _paper(wires: Wires, _: Config, __: Each = one_by_one) -> Made:
     """A jig of paper: a line as long as the wires, and a page of one sentence."""
     length_mm = sum(wire.length_mm for wire in wires)
     line = Contour("SCORE", (Line((0.0, 0.0), (length_mm, 0.0)),))

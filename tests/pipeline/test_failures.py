@@ -145,9 +145,9 @@ def _killed() -> None:
 
 def test_a_worker_that_the_system_killed_ran_out_of_memory() -> None:
     with Worker() as worker:
-        worker.start(_killed)
+        job = worker.start("piece: jig", 60, _killed)
         with pytest.raises(KernelError, match=r"memory runs out.*-j1") as lost:
-            worker.result("piece: jig", 60)
+            worker.result(job)
     assert lost.value.where == "piece: jig"
 
 

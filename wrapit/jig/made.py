@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Protocol, TypeVar
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding
@@ -16,6 +16,8 @@ from wrapit.pages.model import Block, Text
 from wrapit.wires.model import Wire
 
 Wires = tuple[Wire, ...]
+T = TypeVar("T")
+R = TypeVar("R")
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +81,23 @@ class Planned:
     build: Callable[[], Made]
 
 
+class Each(Protocol):
+    """Makes something of each of several things, one by one or some elsewhere; all of it picklable."""
+
+    def __call__(self, make: Callable[[T], R], things: Sequence[T], /) -> list[R]: ...
+
+
+def one_by_one(make: Callable[[T], R], things: Sequence[T], /) -> list[R]:
+    """`Each` in this process."""
+    return [make(thing) for thing in things]
+
+
+class Make(Protocol):
+    """Makes a jig; `each` may have part of it done in another process."""
+
+    def __call__(self, wires: Wires, config: Config, each: Each = one_by_one, /) -> Made: ...
+
+
 @dataclass(frozen=True)
 class JigMaker:
     """A kind of jig.
@@ -93,7 +112,7 @@ class JigMaker:
 
     kind: JigKind
     solid: bool
-    make: Callable[[Wires, Config], Made]
+    make: Make
     held: Callable[[Wires, Config], float]
     judge: Callable[[Made, Wires, Config], Made] | None = None
     plan: Callable[[Wires, Config], Planned] | None = None

@@ -29,8 +29,8 @@ def write_coupons(config: Config, folder: Path) -> tuple[Path, Path]:
         with tempfile.TemporaryDirectory(dir=folder, prefix=".coupon") as partial, Worker() as worker:
             cut, printed = Path(partial) / "coupon-kerf.dxf", Path(partial) / "coupon-clearance.stl"
             write_dxf(cut, contours, plate.profile, plate.curves, plate.tolerance)
-            worker.start(write_printed, coupon, printed, config.jig.stl_tolerance)
-            worker.result("coupon", TIMEOUT_S)
+            tolerance_mm = config.jig.stl_tolerance
+            worker.result(worker.start("coupon", TIMEOUT_S, write_printed, coupon, printed, tolerance_mm))
             return cut.replace(folder / cut.name), printed.replace(folder / printed.name)
     except OSError as error:
         problem = f"can't write here ({error.strerror})"

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from wrapit.config import Config
+from wrapit.config import Config, GuideConfig
 from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.work import Work
 
 if TYPE_CHECKING:
-    from wrapit.jig.made import Made, View, Wires
+    from wrapit.errors import Finding
+    from wrapit.instructions.model import Guide
+    from wrapit.jig.made import Each, Made, View, Wires
+
+T = TypeVar("T")
 
 ALTERNATIVES = "alternatives.svg"
 """The picture of the best decompositions side by side."""
@@ -51,13 +56,12 @@ def write_drawings(folder: Path, made: Made, config: Config) -> tuple[str, ...]:
     )
 
 
-def write_guide(work: Work, folder: Path) -> Outcome:
+def write_guide(work: Work, folder: Path, each: Each) -> Outcome:
     """`guide.html`, `guide.pdf`, and what they tell.
 
     The steps are of the first jig that holds wires, and of its mirror image.
     """
     from wrapit.instructions.plan import Held, plan_guide
-    from wrapit.instructions.stage import write_page, write_print
     from wrapit.jig.bench.mirrored_bench import mirrored_handling
     from wrapit.pipeline.report import guide_numbers
 
@@ -80,17 +84,37 @@ def write_guide(work: Work, folder: Path) -> Outcome:
         ring=work.ring,
         bridges=frozenset(work.solution.bridges_used),
     )
-    files = []
-    blocks = {"guide": guide_numbers(guide)}
-    if "html" in config.outputs:
-        files.append("guide.html")
-        write_text(folder / files[-1], write_page(guide, config.guide))
-    if "pdf" not in config.outputs:
-        return Outcome(blocks=blocks, files=files)
-    printed, findings = write_print(guide, config.guide)
-    files.append("guide.pdf")
-    (folder / files[-1]).write_bytes(printed)
-    return Outcome(blocks=blocks, findings=findings, files=files)
+    media = {"html": _write_page, "pdf": _write_print}
+    telling = [
+        functools.partial(write, guide, config.guide, folder / f"guide.{kind}")
+        for kind, write in media.items()
+        if kind in config.outputs
+    ]
+    said = each(_called, telling)
+    return Outcome(
+        blocks={"guide": guide_numbers(guide)},
+        findings=[finding for findings in said for finding in findings],
+        files=[f"guide.{kind}" for kind in media if kind in config.outputs],
+    )
+
+
+def _called(function: Callable[[], T]) -> T:
+    return function()
+
+
+def _write_page(guide: Guide, config: GuideConfig, path: Path) -> tuple[Finding, ...]:
+    from wrapit.instructions.stage import write_page
+
+    write_text(path, write_page(guide, config))
+    return ()
+
+
+def _write_print(guide: Guide, config: GuideConfig, path: Path) -> tuple[Finding, ...]:
+    from wrapit.instructions.stage import write_print
+
+    printed, findings = write_print(guide, config)
+    path.write_bytes(printed)
+    return findings
 
 
 def write_sketch(work: Work, folder: Path) -> Outcome:

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import functools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from wrapit.config import Config, JigKind
 from wrapit.errors import Finding, UnheldError
 from wrapit.pipeline.cache.remembering import Outcome
+from wrapit.pipeline.sharing import shared
 from wrapit.pipeline.work import Work
-from wrapit.pipeline.worker import OnCall
+from wrapit.pipeline.worker import Job, OnCall
 
 if TYPE_CHECKING:
-    from wrapit.jig.made import JigMaker, Made, Planned, View, Wires
+    from wrapit.jig.made import Each, JigMaker, Made, Planned, View, Wires
 
 T = TypeVar("T")
 
@@ -77,12 +77,13 @@ def _made(
     from wrapit.pipeline.solids import make_solids
 
     made: dict[JigKind, Outcome | UnheldError] = {}
-    started: list[JigKind] = []
+    started: dict[JigKind, Job] = {}
     first: Planned | None = None
     # Solids first: their process works while flat jigs are made here.
     for maker in sorted((JIGS[kind] for kind in kinds), key=lambda maker: not maker.solid):
         if maker.plan is None:
-            flat = _tried(maker.make, work)
+            each = each_beside(work, kernel, f"jig {maker.kind}")
+            flat = _tried(functools.partial(_with, maker, each), work)
             if isinstance(flat, UnheldError):
                 made[maker.kind] = flat
                 continue
@@ -94,15 +95,19 @@ def _made(
         if isinstance(planned, UnheldError):
             made[maker.kind] = planned
             continue
-        kernel.worker().start(make_solids, _building(planned, maker, work.laid, work), work.config, folder)
-        started.append(maker.kind)
+        building = _building(planned, maker, work.laid, work)
+        started[maker.kind] = start(work, kernel, "jig", make_solids, building, work.config, folder)
         if maker.kind == kinds_of(work)[0]:
             first = planned
     if folder is not None and first is not None:
         show_jig(work, folder, views=first.views)  # painted while the solids are made
-    for kind in started:
-        made[kind] = _solid(_awaited(work, kernel, "jig"))
+    for kind, job in started.items():
+        made[kind] = _solid(kernel.worker().result(job))
     return made
+
+
+def _with(maker: JigMaker, each: Each, wires: Wires, config: Config) -> Made:
+    return maker.make(wires, config, each)
 
 
 def _building(planned: Planned, maker: JigMaker, wires: Wires, work: Work) -> Callable[[], Made]:
@@ -121,9 +126,22 @@ def _tried(make: Callable[[Wires, Config], T], work: Work) -> T | UnheldError:
         return unheld
 
 
-def _awaited(work: Work, kernel: OnCall, what: str) -> Any:
-    limit_s = work.config.jig.time_limit or 120 + 60 * len(work.wires)
-    return kernel.worker().result(f"{work.config.name}: {what}", limit_s)
+def start(work: Work, kernel: OnCall, what: str, function: Callable[..., Any], *arguments: Any) -> Job:
+    """Gives the kernel's process a function; errors name the piece and `what` it makes of it."""
+    return kernel.worker().start(_named(work, what), _limit_s(work), function, *arguments)
+
+
+def each_beside(work: Work, kernel: OnCall, what: str) -> Each:
+    """Makes like things in both processes."""
+    return shared(kernel, _named(work, what), _limit_s(work))
+
+
+def _named(work: Work, what: str) -> str:
+    return f"{work.config.name}: {what}"
+
+
+def _limit_s(work: Work) -> float:
+    return work.config.jig.time_limit or 120 + 60 * len(work.wires)
 
 
 def _outcome(made: Made, files: Sequence[str]) -> Outcome:
@@ -183,24 +201,26 @@ def show_jig(work: Work, folder: Path, *, mirror: bool = False, views: Sequence[
     work.outcomes[step] = work.remember(key, painted, folder)
 
 
-@contextlib.contextmanager
-def wires_beside(work: Work, kernel: OnCall, folder: Path, *, mirror: bool = False) -> Iterator[None]:
-    """Has `wires.step` written in the kernel's process while this one does something else."""
+def begin_wires(work: Work, kernel: OnCall, folder: Path, *, mirror: bool = False) -> Callable[[], None]:
+    """Has `wires.step` written in the kernel's process; what is returned waits until it is, and takes it."""
     if "step" not in work.config.outputs:
-        yield
-        return
+        return lambda: None
     key = wires_key(work, mirror=mirror)
-    outcome = work.recall(key, folder)
-    name = "" if outcome is not None else _start_wires(work, kernel, folder, mirror=mirror)
-    yield
-    if outcome is None:
-        findings: tuple[Finding, ...] = _awaited(work, kernel, "wires")
-        said = [_of_mirrored(f) if mirror else f for f in findings]
-        outcome = work.keep(key, Outcome(findings=said, files=(name,)), folder)
-    work.findings += outcome.findings
+    recalled = work.recall(key, folder)
+    name, job = ("", None) if recalled is not None else _start_wires(work, kernel, folder, mirror=mirror)
+
+    def finish() -> None:
+        outcome = recalled
+        if job is not None:
+            findings: tuple[Finding, ...] = kernel.worker().result(job)
+            said = [_of_mirrored(f) if mirror else f for f in findings]
+            outcome = work.keep(key, Outcome(findings=said, files=(name,)), folder)
+        work.findings += outcome.findings if outcome is not None else ()
+
+    return finish
 
 
-def _start_wires(work: Work, kernel: OnCall, folder: Path, *, mirror: bool) -> str:
+def _start_wires(work: Work, kernel: OnCall, folder: Path, *, mirror: bool) -> tuple[str, Job]:
     """The name of the file that the kernel's process has begun."""
     from wrapit.jig.made import MIRRORED
     from wrapit.pipeline.solids import write_wires
@@ -209,8 +229,7 @@ def _start_wires(work: Work, kernel: OnCall, folder: Path, *, mirror: bool) -> s
     wires, ring, name = work.wires, work.ring, "wires.step"
     if mirror:
         wires, ring, name = mirrored(wires), mirrored_ring(ring), f"wires{MIRRORED}.step"
-    kernel.worker().start(write_wires, wires, ring, work.config, folder / name)
-    return name
+    return name, start(work, kernel, "wires", write_wires, wires, ring, work.config, folder / name)
 
 
 def _take_mirrored(work: Work, kernel: OnCall, folder: Path | None) -> None:
@@ -236,8 +255,9 @@ def _mirrored(work: Work, kernel: OnCall, folder: Path | None) -> Outcome:
     config = work.config.model_copy(update={"jig": mirrored_seats(work.config.jig)})
     wires = mirrored(work.laid)
     planned = maker.plan(wires, config)
-    kernel.worker().start(make_solids, _building(planned, maker, wires, work), config, folder, MIRRORED)
-    outcome = _solid(_awaited(work, kernel, "mirrored jig"))
+    building = _building(planned, maker, wires, work)
+    job = start(work, kernel, "mirrored jig", make_solids, building, config, folder, MIRRORED)
+    outcome = _solid(kernel.worker().result(job))
     return Outcome(outcome.value, outcome.blocks, tuple(map(_of_mirrored, outcome.findings)), outcome.files)
 
 

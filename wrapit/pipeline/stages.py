@@ -6,6 +6,7 @@ it isn't called where the cache holds what it would return.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +15,14 @@ from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.cache.store import Store
 from wrapit.pipeline.exporting import write_alternatives, write_fewer_wires, write_guide, write_sketch
 from wrapit.pipeline.jigs import (
+    begin_wires,
+    each_beside,
     jig_key,
     jig_step,
     kinds_of,
     make_jigs,
     mirrored_key,
     show_jig,
-    wires_beside,
     wires_key,
 )
 from wrapit.pipeline.output.ownership import sha256
@@ -43,10 +45,13 @@ def run_stages(work: Work, folder: Path | None) -> None:
             _decompose(work, folder)
         if work.reaches("wires"):
             _draw_wires(work, folder)
+        files = folder if work.reaches("exports") else None
+        # Solids of wires are made while jigs are planned: they hang on nothing that is.
+        finish_wires = begin_wires(work, kernel, files) if files is not None else None
         if work.reaches("jig"):
-            make_jigs(work, kernel, folder if work.reaches("exports") else None)
-        if work.reaches("exports") and folder is not None:
-            _export(work, kernel, folder)
+            make_jigs(work, kernel, files)
+        if files is not None and finish_wires is not None:
+            _export(work, kernel, files, finish_wires)
     if folder is not None:
         write_text(folder / "config.lock.yaml", lock_text(work.config))
 
@@ -173,13 +178,15 @@ def _draw_wires(work: Work, folder: Path | None) -> None:
             work.take("laid", work.remember(work.key("laid"), laid, None))
 
 
-def _export(work: Work, kernel: OnCall, folder: Path) -> None:
+def _export(work: Work, kernel: OnCall, folder: Path, finish_wires: Callable[[], None]) -> None:
     with work.stage("exports"):
-        with wires_beside(work, kernel, folder):
-            show_jig(work, folder)
-            if {"html", "pdf"} & set(work.config.outputs):
-                key = work.key("guide", upon=map(jig_step, kinds_of(work)))
-                work.take("guide", work.remember(key, lambda: write_guide(work, folder), folder))
+        show_jig(work, folder)
+        if {"html", "pdf"} & set(work.config.outputs):
+            key = work.key("guide", upon=map(jig_step, kinds_of(work)))
+            each = each_beside(work, kernel, "guide")
+            work.take("guide", work.remember(key, lambda: write_guide(work, folder, each), folder))
+        finish_wires()
         if work.has_mirrored:
-            with wires_beside(work, kernel, folder, mirror=True):
-                show_jig(work, folder, mirror=True)
+            finish_mirrored = begin_wires(work, kernel, folder, mirror=True)
+            show_jig(work, folder, mirror=True)
+            finish_mirrored()

@@ -11,7 +11,9 @@ import sys
 import threading
 import time
 import traceback
+from collections import deque
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from types import TracebackType
@@ -21,10 +23,20 @@ from wrapit.errors import KernelError, WrapItError
 from wrapit.pipeline.output.guards import let_through, signals_held
 
 
+@dataclass
+class Job:
+    """A function that a worker has been given; `where` names it in errors."""
+
+    where: str
+    limit_s: float
+    given_s: float
+    answer: tuple[bool, Any] | None = None
+
+
 class Worker:
     """A process that has the kernel loaded; entered early, it loads while other stages run.
 
-    `start` sends it one function of this package with arguments, all picklable.
+    `start` gives it a function of this package with arguments, all picklable. It takes one after the other.
     """
 
     def __init__(self, preload: Sequence[str] = ()) -> None:
@@ -32,7 +44,8 @@ class Worker:
         self._connection, theirs = context.Pipe()
         self._process = context.Process(target=_serve, args=(theirs, tuple(preload)), daemon=True)
         self._theirs = theirs
-        self._started_s = time.monotonic()
+        self._jobs: deque[Job] = deque()
+        self._free_s = 0.0
 
     def __enter__(self) -> Self:
         try:
@@ -50,38 +63,61 @@ class Worker:
     ) -> None:
         self._stop()
 
-    def start(self, function: Callable[..., Any], *arguments: Any) -> None:
-        """Sends a function; `result` waits for what it returns."""
-        self._started_s = time.monotonic()
+    def start(self, where: str, limit_s: float, function: Callable[..., Any], *arguments: Any) -> Job:
+        """Gives it a function; `result` waits for what that returns, `limit_s` at most from its turn on."""
+        job = Job(where, limit_s, time.monotonic())
+        self._jobs.append(job)
         with contextlib.suppress(BrokenPipeError):  # `result` says what became of the process
             self._connection.send((function, arguments))
+        return job
 
-    def result(self, where: str, timeout_s: float) -> Any:
-        """What the function returned; its WrapItErrors come through.
+    def is_free(self) -> bool:
+        """Whether it has done all that it was given."""
+        with contextlib.suppress(EOFError, OSError):  # it is gone: `result` says why
+            while self._jobs and self._connection.poll():
+                self._take()
+        return not self._jobs
 
-        Raises KernelError, naming `where`, when the process crashes or isn't done `timeout_s` after it was
-        started, OSError when it couldn't write.
+    def result(self, job: Job) -> Any:
+        """What a function returned; its WrapItErrors come through.
+
+        Raises KernelError, naming what is to blame, when the process crashes or a function takes too long,
+        OSError when it couldn't write.
         """
-        try:
-            left_s = self._started_s + timeout_s - time.monotonic()
-            if not self._connection.poll(max(0.0, left_s)):
-                self._stop()
-                raise KernelError(
-                    f"the solid modeller didn't finish within {timeout_s:.0f} s",
-                    where,
-                    "simplify the drawing there, or raise jig.time_limit",
-                )
-            succeeded, value = self._connection.recv()
-        except (EOFError, BrokenPipeError, ConnectionResetError):
-            self._process.join(5)
-            raise _ended(self._process.exitcode, where) from None
+        while job.answer is None:
+            head = self._jobs[0]
+            try:
+                left_s = self._turn_s(head) + head.limit_s - time.monotonic()
+                if not self._connection.poll(max(0.0, left_s)):
+                    self._stop()
+                    raise KernelError(
+                        f"the solid modeller didn't finish within {head.limit_s:.0f} s",
+                        head.where,
+                        "simplify the drawing there, or raise jig.time_limit",
+                    )
+                self._take()
+            except (EOFError, BrokenPipeError, ConnectionResetError):
+                self._process.join(5)
+                raise _ended(self._process.exitcode, head.where) from None
+        succeeded, value = job.answer
         if succeeded:
             return value
         if isinstance(value, WrapItError | OSError):
             raise value
         if isinstance(value, MemoryError):
-            raise _out_of_memory(where)
+            raise _out_of_memory(job.where)
         raise RuntimeError(value)
+
+    def _take(self) -> None:
+        """Reads the answer of the function whose turn it was."""
+        *answer, took_s = self._connection.recv()
+        job = self._jobs.popleft()
+        self._free_s = self._turn_s(job) + took_s
+        job.answer = (answer[0], answer[1])
+
+    def _turn_s(self, job: Job) -> float:
+        """When the first of its functions had its turn."""
+        return max(self._free_s, job.given_s)
 
     def _stop(self) -> None:
         if self._process.is_alive():
@@ -114,6 +150,10 @@ class OnCall:
         if self._worker is None:
             self._worker = self._stack.enter_context(self._hired())
         return self._worker
+
+    def is_free(self) -> bool:
+        """Whether a worker is there and has nothing to do."""
+        return self._worker is not None and self._worker.is_free()
 
 
 def _start_tracker() -> None:
@@ -161,6 +201,7 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             function, arguments = connection.recv()
         except EOFError:
             return
+        began_s = time.monotonic()
         try:
             answer: tuple[bool, Any] = (True, function(*arguments))
         except (WrapItError, OSError, MemoryError) as error:
@@ -168,7 +209,7 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
         except Exception:  # noqa: BLE001  told to the parent with its traceback
             answer = (False, traceback.format_exc())
         try:
-            connection.send(answer)
+            connection.send((*answer, time.monotonic() - began_s))
         except BrokenPipeError:
             return  # the parent is gone
 

@@ -13,14 +13,14 @@ from wrapit.geometry.outlines.loops import circle, rounded_rectangle
 from wrapit.jig.bench.model import Bench, Contact, Handling
 from wrapit.jig.bench.touching import in_order, round_runs
 from wrapit.jig.channel import Channels
-from wrapit.jig.made import JigMaker, Made, View, Wires, reported
+from wrapit.jig.made import Each, JigMaker, Made, View, Wires, one_by_one, reported
 from wrapit.jig.pegs.board_page import peg_page
 from wrapit.jig.pegs.drawing import board_drawing
 from wrapit.jig.pegs.model import Peg, PegPlan, hole_name
 from wrapit.jig.pegs.placing import place_pegs
 
 
-def make(wires: Wires, config: Config) -> Made:
+def make(wires: Wires, config: Config, _: Each = one_by_one) -> Made:
     """The board for all wires of a piece; see `JigMaker`."""
     plan = _plan(wires, config)
     if plan.held_share < config.jig.least_support:

@@ -11,7 +11,7 @@ from wrapit.errors import Finding
 from wrapit.jig.bench.model import Bench, Handling
 from wrapit.jig.bench.touching import bench_of
 from wrapit.jig.channel import Channels
-from wrapit.jig.made import JigMaker, Made, Planned, View, Wires
+from wrapit.jig.made import Each, JigMaker, Made, Planned, View, Wires, one_by_one
 from wrapit.jig.model import Jig, JigSet, straying
 from wrapit.jig.overbending import loose_ends
 from wrapit.jig.printed.jig_numbers import jig_numbers
@@ -33,7 +33,7 @@ def plan(wires: Wires, config: Config) -> Planned:
     return Planned(views, functools.partial(_made, planned, views, (*findings, *loose), wires, config))
 
 
-def make(wires: Wires, config: Config) -> Made:
+def make(wires: Wires, config: Config, _: Each = one_by_one) -> Made:
     """The printed jig of a piece, or several; see `JigMaker`. Raises KernelError too."""
     return plan(wires, config).build()
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -11,6 +13,7 @@ from wrapit.errors import Finding
 from wrapit.geometry import Line, Loop, Region
 from wrapit.geometry.outlines.loops import oriented, reversed_loop
 from wrapit.jig.contours import Contour
+from wrapit.jig.made import Each
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -56,7 +59,7 @@ class _Swallowed(Exception):  # noqa: N818  not an error of the program, but of 
 
 
 def make_inlays(
-    jig: str, walls: Sequence[Region], config: PlateConfig, offset: Offset
+    jig: str, walls: Sequence[Region], config: PlateConfig, offset: Offset, each: Each
 ) -> tuple[tuple[Inlay, ...], tuple[Finding, ...]]:
     """An inlay for each wall, numbered from 1; walls that can't be cut are left out with a finding.
 
@@ -65,15 +68,16 @@ def make_inlays(
     """
     inlays: list[Inlay] = []
     findings: list[Finding] = []
-    for wall in map(oriented, walls):
+    shapes = [oriented(wall) for wall in walls]
+    made = each(functools.partial(_inlay, config=config, offset=offset), shapes)
+    for wall, found in zip(shapes, made, strict=True):
         point = polygon_of(wall).representative_point()
         where = f"{jig}, wall at ({point.x:.1f}, {point.y:.1f})"
-        try:
-            inlay, exact = _inlay(len(inlays) + 1, wall, config, offset)
-        except _Swallowed as reason:
-            findings.append(Finding("warning", "kerf-too-wide", where, str(reason), _KERF_REMEDY))
+        if isinstance(found, str):
+            findings.append(Finding("warning", "kerf-too-wide", where, found, _KERF_REMEDY))
             continue
-        inlays.append(inlay)
+        inlay, exact = found
+        inlays.append(dataclasses.replace(inlay, number=len(inlays) + 1))
         if not exact:
             findings.append(Finding("note", "offset-by-lines", where, _BY_LINES))
     return tuple(inlays), tuple(findings)
@@ -86,8 +90,15 @@ def polygon_of(region: Region) -> Polygon:
     return Polygon(region.outer.sampled(_FLAT_MM), [hole.sampled(_FLAT_MM) for hole in region.holes])
 
 
-def _inlay(number: int, wall: Region, config: PlateConfig, offset: Offset) -> tuple[Inlay, bool]:
-    """The inlay, and whether all its outlines are exact."""
+def _inlay(wall: Region, config: PlateConfig, offset: Offset) -> tuple[Inlay, bool] | str:
+    """The inlay, not numbered yet, and whether all its outlines are exact; why it can't be cut."""
+    try:
+        return _cut(wall, config, offset)
+    except _Swallowed as reason:
+        return str(reason)
+
+
+def _cut(wall: Region, config: PlateConfig, offset: Offset) -> tuple[Inlay, bool]:
     half_mm, fit_mm = config.kerf / 2, config.fit
     exact = []
 
@@ -118,7 +129,7 @@ def _inlay(number: int, wall: Region, config: PlateConfig, offset: Offset) -> tu
         for hole in wall.holes
     ]
     inlay = Inlay(
-        number,
+        0,
         wall,
         Region(
             _finished(pocket_cut, half_mm),
@@ -182,7 +193,10 @@ def _agrees(loop: Loop, expected: Polygon) -> bool:
     """Whether each outline stays within the tolerance of the other."""
     from shapely import Polygon, dwithin, get_coordinates, points, prepare
 
-    found = Polygon(loop.sampled(_FLAT_MM / 10))
+    places = loop.sampled(_FLAT_MM / 10)
+    if len(places) < 3:  # there and back along one line
+        return False
+    found = Polygon(places)
     if not found.is_valid:
         return False
     for one, other in ((found, expected), (expected, found)):

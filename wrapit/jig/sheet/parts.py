@@ -13,6 +13,7 @@ from wrapit.geometry import Loop, Region
 from wrapit.geometry.outlines.loops import circle, oriented, reversed_loop, rounded_rectangle
 from wrapit.jig.contours import Contour
 from wrapit.jig.lettering import engraved_text
+from wrapit.jig.made import Each
 from wrapit.jig.model import Hole
 from wrapit.jig.sheet.engraving import engraved_wires, label_on, wire_numbers
 from wrapit.jig.sheet.frame import Frame, frame_around
@@ -48,13 +49,14 @@ def stack_parts(
     jig_config: JigConfig,
     config: PlateConfig,
     offset: Offset,
+    each: Each,
 ) -> tuple[tuple[LaserPart, ...], tuple[Finding, ...]]:
     """All parts of one jig, where they lie in it: bottom, pocket plate, its islands, wall pieces.
 
     `walls` are finished shapes; `prefix` tells the labels of several jigs apart. Findings name walls and
     start holes that can't be cut.
     """
-    inlays, findings = make_inlays(jig, walls, config, offset)
+    inlays, findings = make_inlays(jig, walls, config, offset, each)
     kept, hole_findings = _clear_holes(jig, holes, inlays)
     frame = frame_around(wires, [inlay.wall for inlay in inlays], kept, jig_config, config)
     pins = [Hole(pin, config.pin, (), circle(pin, config.pin / 2)) for pin in frame.pins]

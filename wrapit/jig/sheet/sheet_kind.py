@@ -9,7 +9,7 @@ from wrapit.errors import Finding
 from wrapit.jig.bench.model import Bench, Handling
 from wrapit.jig.bench.touching import bench_of
 from wrapit.jig.channel import Channels
-from wrapit.jig.made import JigMaker, Made, View, Wires
+from wrapit.jig.made import Each, JigMaker, Made, View, Wires, one_by_one
 from wrapit.jig.sheet.drawings import sheet_drawings, sheet_name
 from wrapit.jig.sheet.model import LaserJig
 from wrapit.jig.sheet.sheet_numbers import plate_numbers
@@ -32,12 +32,12 @@ SEATS_PRINTED: Final = Finding(
 )
 
 
-def make(wires: Wires, config: Config) -> Made:
+def make(wires: Wires, config: Config, each: Each = one_by_one) -> Made:
     """The laser-cut jig of a piece; see `JigMaker`."""
     from wrapit.jig.sheet.gluing_page import gluing_page
     from wrapit.jig.sheet.stage import build_laser_jig
 
-    laser, findings = build_laser_jig(wires, config.jig, config.plate)
+    laser, findings = build_laser_jig(wires, config.jig, config.plate, each)
     said = [*findings]
     if config.pair:
         said.insert(0, ONE_PLATE)

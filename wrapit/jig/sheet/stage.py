@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,7 @@ from wrapit.geometry.outlines.loops import circle
 from wrapit.geometry.outlines.offsets import offset_region
 from wrapit.jig.channel import Channels
 from wrapit.jig.findings import form_findings, stray_findings
+from wrapit.jig.made import Each, one_by_one
 from wrapit.jig.model import Course, Hold, Hole, Pin, SameShape, TurnSupport, Wall, straying
 from wrapit.jig.openings.holes import hole_rims, start_holes
 from wrapit.jig.openings.pins import pin_discs, pin_holes
@@ -44,21 +46,21 @@ _FACE_MM = 0.05
 
 
 def build_laser_jig(
-    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig, each: Each = one_by_one
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
     """The laser-cut jig of these wires, in one stack or several where one would hold a wire badly.
 
     Raises JigError when there are no wires, UnheldError when walls cut from sheet would hold too little of
     them.
     """
-    plans, forms, findings = plan_stacks(wires, jig_config, config)
+    plans, forms, findings = plan_stacks(wires, jig_config, config, each)
     refuse_unheld((one for plan in plans.values() for one in plan.held), jig_config)
-    laser, more = laser_jig(plans, forms, jig_config, config)
+    laser, more = laser_jig(plans, forms, jig_config, config, each)
     return laser, (*findings, *more)
 
 
 def plan_stacks(
-    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig
+    wires: tuple[Wire, ...], jig_config: JigConfig, config: PlateConfig, each: Each = one_by_one
 ) -> tuple[dict[str, LaserPlan], tuple[SameShape, ...], tuple[Finding, ...]]:
     """The plan of each stack, by its name; wires that another's serves; what the maker should know.
 
@@ -68,16 +70,20 @@ def plan_stacks(
     if not wires:
         raise JigError("there are no wires to make a jig for")
     parting = parted(wires, jig_config, lambda mine, name, others: _Grouped.of(mine, name, jig_config))
-    plans: dict[str, LaserPlan] = {}
     findings = [*bead_findings(wires), *parting.findings, *form_findings(parting.forms)]
-    for group in parting.jigs:
-        plans[group.name], more = plan_stack(group.wires, jig_config, config)
-        findings += more
+    plan = functools.partial(plan_stack, jig_config=jig_config, config=config)
+    planned = each(plan, [group.wires for group in parting.jigs])
+    plans = {group.name: plan for group, (plan, _) in zip(parting.jigs, planned, strict=True)}
+    findings += (finding for _, more in planned for finding in more)
     return plans, parting.forms, tuple(findings)
 
 
 def laser_jig(
-    plans: Mapping[str, LaserPlan], forms: tuple[SameShape, ...], jig_config: JigConfig, config: PlateConfig
+    plans: Mapping[str, LaserPlan],
+    forms: tuple[SameShape, ...],
+    jig_config: JigConfig,
+    config: PlateConfig,
+    each: Each = one_by_one,
 ) -> tuple[LaserJig, tuple[Finding, ...]]:
     """The parts of planned stacks, laid out on sheets and measured.
 
@@ -89,7 +95,7 @@ def laser_jig(
         prefix = f"{number}." if len(plans) > 1 else ""
         holes = (*plan.holes, *(_hole_for(pin) for pin in plan.pins))
         stack, faults = stack_parts(
-            name, prefix, plan.wires, plan.walls, holes, jig_config, config, offset_region
+            name, prefix, plan.wires, plan.walls, holes, jig_config, config, offset_region, each
         )
         parts += stack
         findings += [*faults, *small_pieces(name, stack, config.handle)]

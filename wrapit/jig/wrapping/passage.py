@@ -52,7 +52,11 @@ def _of_wire(channels: Channels, index: int, held: tuple[tuple[Turn, float], ...
     for (span, beyond_mm), side in sides.items():
         rest = _rest(channels, index, span, beyond_mm)
         if rest is not None and rest.dwithin(side, channels.reach_mm):
-            again = rest.buffer(channels.reach_mm, quad_segs=32).intersection(side)
+            # Of a long wire only what is near: its ground is the same there.
+            low_x, low_y, high_x, high_y = side.bounds
+            far = 2 * channels.reach_mm
+            near = shapely.clip_by_rect(rest, low_x - far, low_y - far, high_x + far, high_y + far)
+            again = near.buffer(channels.reach_mm, quad_segs=32).intersection(side)
             parts.append(_without_crumbs(again))
     return shapely.union_all(parts)
 
