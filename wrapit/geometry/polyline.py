@@ -26,7 +26,11 @@ def total_length(points: FloatArray) -> float:
 
 def lengths(points: FloatArray) -> FloatArray:
     """Length of a chain of points (n, 2) from its start to each of them, (n,)."""
-    return np.concatenate([[0.0], np.cumsum(steps(points))])
+    apart = steps(points)
+    along = np.empty(len(apart) + 1)
+    along[0] = 0.0
+    apart.cumsum(out=along[1:])
+    return along
 
 
 def at_lengths(points: FloatArray, along: FloatArray, at: FloatArray) -> FloatArray:
@@ -34,7 +38,10 @@ def at_lengths(points: FloatArray, along: FloatArray, at: FloatArray) -> FloatAr
 
     Beyond an end it is that end.
     """
-    return np.column_stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)])
+    found = np.empty((len(at), 2))
+    for axis in (0, 1):
+        found[:, axis] = np.interp(at, along, points[:, axis])
+    return found
 
 
 def evenly(points: FloatArray, count: int) -> FloatArray:

@@ -9,6 +9,9 @@ import numpy as np
 
 from wrapit.geometry import FloatArray, unit
 
+# Made once, as polynomials are many and short.
+_EXPONENTS = np.arange(16)[:, None]
+
 
 def horner(terms: list[list[float]], along: float) -> tuple[float, float, float, float]:
     """Place and unit direction of a parametric polynomial; plain numbers, as arrays of two are slow."""
@@ -33,15 +36,16 @@ def nearest_along(
 
 def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray:
     """Least-squares coefficients (degree + 1, 2), lowest first."""
-    scale = max(float(np.abs(along).max()), 1e-9)
-    powers = np.ones((degree + 1, len(along)))
-    share = along / scale
-    for k in range(degree):
+    scale = max(float(np.maximum.reduce(np.abs(along))), 1e-9)
+    powers = np.empty((degree + 1, len(along)))
+    powers[0] = 1.0
+    share = np.divide(along, scale, out=powers[1])
+    for k in range(1, degree):
         np.multiply(powers[k], share, out=powers[k + 1])
     normal = powers @ powers.T
-    normal.flat[:: degree + 2] += 1e-12
+    normal.ravel()[:: degree + 2] += 1e-12
     solution = np.linalg.solve(normal, powers @ points)
-    return solution / scale ** np.arange(degree + 1)[:, None]
+    return solution / scale ** _EXPONENTS[: degree + 1]
 
 
 def crossing(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import lengths
@@ -35,13 +37,17 @@ _MARGIN = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Arm:
-    """The clean part of a strand at one of its ends, walked outward; `cut` counts the points before it."""
+    """The clean part of a strand at one of its ends, walked outward; `cut` counts the points before it.
+
+    `endings` remembers what `endings.place_end` found before it in an ink, as two steps ask for it.
+    """
 
     strand: int
     end: int
     cut: int
     points: FloatArray
     width_px: float
+    endings: dict[Ink, Any] = field(default_factory=dict, repr=False)
 
     @cached_property
     def along(self) -> FloatArray:
@@ -108,6 +114,14 @@ class Arm:
 
 def arm(line: Line, strand: int, end: int, width_px: float) -> Arm:
     """The arm of a strand at one end: from its first three clean points on, or its middle if it has none."""
+    asked = strand, end, width_px
+    if asked not in line.arms:
+        line.arms[asked] = _found(line, strand, end, width_px)
+    known: Arm = line.arms[asked]
+    return known
+
+
+def _found(line: Line, strand: int, end: int, width_px: float) -> Arm:
     points = line.points if end == 0 else line.points[::-1]
     clean = line.clean if end == 0 else line.clean[::-1]
     width = line.width if end == 0 else line.width[::-1]

@@ -37,9 +37,15 @@ class Radii:
 
         self._tree = cKDTree(pixels)
         self._distance = distance
+        self.largest = float(distance.max())
 
     def __call__(self, point: FloatArray) -> float:
         return float(self._distance[self._tree.query(point)[1]])
+
+    def at(self, points: list[FloatArray]) -> list[float]:
+        """The same for many places in one look."""
+        found: list[float] = self._distance[self._tree.query(np.array(points))[1]].tolist() if points else []
+        return found
 
 
 def tidy(graph: StrandGraph, radius: Radii, width_px: float) -> bool:
@@ -56,6 +62,7 @@ def tidy(graph: StrandGraph, radius: Radii, width_px: float) -> bool:
 
 def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
     """Drops side branches shorter than `_SPUR` half widths of the ink at their junction, shortest first."""
+    longest = _SPUR * max(radius.largest, width_px / 2)
     while True:
         spurs = []
         for strand, s in graph.strands.items():
@@ -64,7 +71,7 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
                 continue
             node = s.end if free[0] else s.start
             length = graph.length(strand)
-            if length < _SPUR * max(radius(graph.nodes[node]), width_px / 2):
+            if length < longest and length < _SPUR * max(radius(graph.nodes[node]), width_px / 2):
                 spurs.append((length, strand, node))
         if not spurs:
             return
@@ -87,12 +94,15 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
 def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, width_px: float) -> None:
     """One end in place of the fork into both corners of a broad stroke's flat end."""
     for node in [node for node in graph.nodes if graph.degree(node) == 3]:
-        reach = _CORNER * max(radius(graph.nodes[node]), width_px / 2)
         twigs = [
             (strand, tip)
             for strand, end in graph.ends_at(node)
-            if graph.degree(tip := graph.other_node(strand, end)) == 1 and graph.length(strand) < reach
+            if graph.degree(tip := graph.other_node(strand, end)) == 1
         ]
+        if len(twigs) < 2:
+            continue
+        reach = _CORNER * max(radius(graph.nodes[node]), width_px / 2)
+        twigs = [(strand, tip) for strand, tip in twigs if graph.length(strand) < reach]
         if len(twigs) != 2:
             continue
         # The tips themselves may be the ink's outermost pixels.
@@ -116,7 +126,8 @@ def contract_short(graph: StrandGraph, radius: Radii, share: float, apart: Set[i
     merged = True
     while merged:
         short = []
-        reach = {node: radius(point) for node, point in graph.nodes.items() if graph.degree(node) >= 3}
+        forks = [node for node in graph.nodes if graph.degree(node) >= 3]
+        reach = dict(zip(forks, radius.at([graph.nodes[node] for node in forks]), strict=True))
         for strand, s in graph.strands.items():
             if strand in apart or s.start == s.end or s.start not in reach or s.end not in reach:
                 continue

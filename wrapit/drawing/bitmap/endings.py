@@ -149,6 +149,13 @@ def place_end(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
     A round cap ends half the stroke's own width behind the edge of its ink, a flat one at the edge: the
     side of the picture cuts strokes flat, too.
     """
+    if ink not in arm.endings:
+        arm.endings[ink] = _end_in(arm, ink)
+    known: tuple[FloatArray, Ending] = arm.endings[ink]
+    return known
+
+
+def _end_in(arm: Arm, ink: Ink) -> tuple[FloatArray, Ending]:
     a, b, _ = arm.model
     # The curve goes on as its tangent, a quadratic would curl.
     start, slope = a, unit(b)

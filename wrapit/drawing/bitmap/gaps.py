@@ -12,9 +12,9 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.endings import place_end
 from wrapit.drawing.bitmap.ends.caps import find_cap
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.strand_graph import StrandGraph, polyline_length
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
-from wrapit.geometry.polyline import lengths
+from wrapit.geometry.polyline import lengths, total_length
 from wrapit.geometry.polynomials import angle
 
 # What gap (in stroke widths) was not meant? Between two ends that face each other one, between an end and the
@@ -179,7 +179,7 @@ def drop_short(graph: StrandGraph, lines: dict[int, Line], shortest_px: float, s
                 == max(graph.degree(s.start), graph.degree(s.end))
             ):
                 continue
-            length = min(lines[strand].length, polyline_length(graph.path(strand)))
+            length = min(lines[strand].length, total_length(graph.path(strand)))
             if length < shortest_px and len(graph.strands) > 1:
                 short.append((length, strand))
         if not short:

@@ -73,7 +73,8 @@ def find_ink(grey: GreyImage, where: str) -> Ink:
             "scan it with more contrast, or redraw it with a black pen",
         )
     half = (ink + paper) / 2
-    return Ink(grey < half, grey, float(paper), float(ink), shaded, histogram)
+    # Whole levels are compared as bytes.
+    return Ink(grey < np.uint8(np.ceil(half)), grey, float(paper), float(ink), shaded, histogram)
 
 
 def darker_ink(ink: Ink) -> GreyImage | None:

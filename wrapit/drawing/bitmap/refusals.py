@@ -99,9 +99,10 @@ def refuse_other_pictures(
     if ninety > _FAT_WIDTH * middle or fat > _FAT_AREA:
         detail = f"{100 * fat:.0f} % of the ink is much thicker than the lines"
         raise _filled(where, detail, outlined, ink.shaded)
-    if ink.mask.mean() > _INK_SHARE:
+    share = np.count_nonzero(ink.mask) / ink.mask.size
+    if share > _INK_SHARE:
         raise DrawingError(
-            f"ink covers {100 * ink.mask.mean():.0f} % of the picture", where, "draw lines on empty paper"
+            f"ink covers {100 * share:.0f} % of the picture", where, "draw lines on empty paper"
         )
 
 
@@ -147,7 +148,7 @@ def fat_share(ink: Ink, skeleton: Skeleton) -> float:
         return 0.0
     thin = skeleton.distance < _FAT_WIDTH * usual
     covered = _PIXEL_LENGTH * float((2 * skeleton.distance[thin] - 1).sum())
-    return max(0.0, 1 - covered / float(ink.mask.sum()))
+    return max(0.0, 1 - covered / np.count_nonzero(ink.mask))
 
 
 def _no_line_drawing(ink: Ink, where: str) -> DrawingError:

@@ -13,6 +13,7 @@ import numpy as np
 from wrapit.drawing.changes import Change, Notice
 from wrapit.errors import Level
 from wrapit.geometry import FloatArray
+from wrapit.geometry.polyline import total_length
 
 # A strand's number, and 0 for its start or 1 for its end.
 StrandEnd: TypeAlias = tuple[int, int]
@@ -79,7 +80,9 @@ class StrandGraph:
     def path(self, strand: int) -> FloatArray:
         """The strand's points with its nodes at both ends, (n + 2, 2)."""
         s = self.strands[strand]
-        return np.vstack([self.nodes[s.start], s.points, self.nodes[s.end]])
+        points = np.empty((len(s.points) + 2, 2))
+        points[0], points[1:-1], points[-1] = self.nodes[s.start], s.points, self.nodes[s.end]
+        return points
 
     def leaving(self, strand: int, end: int) -> FloatArray:
         """The strand's points walked away from one of its ends."""
@@ -88,7 +91,7 @@ class StrandGraph:
 
     def length(self, strand: int) -> float:
         """Length of the path of a strand."""
-        return polyline_length(self.path(strand))
+        return total_length(self.path(strand))
 
     def drop_strand(self, strand: int) -> None:
         """Takes a strand away; its nodes stay."""
@@ -153,9 +156,3 @@ class StrandGraph:
     def tell(self, level: Level, code: str, at_px: FloatArray, message: str, remedy: str = "") -> None:
         """Remembers something to tell the maker."""
         self.notices.append(Notice(level, code, (float(at_px[0]), float(at_px[1])), message, remedy))
-
-
-def polyline_length(points: FloatArray) -> float:
-    """Length of a chain of points (n, 2)."""
-    steps = np.diff(points, axis=0)
-    return float(np.sqrt((steps * steps).sum(axis=1)).sum())

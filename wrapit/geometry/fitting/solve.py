@@ -98,10 +98,11 @@ def solve(
             more &= ~lost
         if not more.any():
             break
-        keep = more[data.piece]
-        data, away, u = data.where(keep, np.cumsum(more) - 1), away[keep], u[keep]
-        u = _nearer(data, away, u, found[more])
-        open_ = open_[more]
+        if not more.all():
+            keep = more[data.piece]
+            data, away, u = data.where(keep, np.cumsum(more) - 1), away[keep], u[keep]
+            found, open_ = found[more], open_[more]
+        u = _nearer(data, away, u, found)
     return _cubics(pieces, ends, handles), error, worst
 
 

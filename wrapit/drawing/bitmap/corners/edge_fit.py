@@ -74,10 +74,12 @@ def missed(chain: FloatArray, edge: FloatArray, width_px: float) -> Missed:
     x -= share * course_x
     y -= share * course_y
     squared = x * x + y * y
-    rows = np.arange(len(edge))
-    side = np.argmin(squared, axis=1)
-    share, distance = share[rows, side], np.sqrt(squared[rows, side])
-    gap = np.column_stack([x[rows, side], y[rows, side]])
+    side = squared.argmin(axis=1)
+    # Places in one row are found in a third of the time that pairs of them take.
+    at = np.arange(0, squared.size, squared.shape[1]) + side
+    share, distance = share.ravel().take(at), np.sqrt(squared.ravel().take(at))
+    gap = np.empty((len(edge), 2))
+    gap[:, 0], gap[:, 1] = x.ravel().take(at), y.ravel().take(at)
     outside = distance / width_px - 0.5
     corner = side + (share >= 1.0)
     at_corner = ((share <= 0.0) | (share >= 1.0)) & (corner > 0) & (corner < len(chain) - 1)

@@ -45,7 +45,7 @@ def turning(
     inner = np.flatnonzero((along >= along[first] + margin) & (along <= along[last] - margin))
 
     def at(shift: int) -> FloatArray:
-        return line.points[np.clip(inner + shift, first, min(last, len(along) - 1))]
+        return line.points[np.minimum(np.maximum(inner + shift, first), min(last, len(along) - 1))]
 
     before, after = at(-near) - at(-far), at(far) - at(near)
     turn[inner] = np.abs(

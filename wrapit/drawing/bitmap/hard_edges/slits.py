@@ -35,27 +35,27 @@ _WIDEST_PX = 11
 _FULL_INK = 0.3
 
 Mask = NDArray[np.bool_]
+Places = NDArray[np.intp]
 
 
 def without_slits(ink: Ink) -> Ink:
     """The ink with the slits across its strokes closed; the same where it has none."""
     # Antialiased slits are grey, and only the middle of a stroke is all ink.
-    full = ink.grey < ink.ink + _FULL_INK * (ink.paper - ink.ink)
+    full = ink.grey < np.uint8(np.ceil(ink.ink + _FULL_INK * (ink.paper - ink.ink)))
     thin_px = _stroke_px(full)
     longest = max(2, int(np.ceil(_QUICK * thin_px)))
     if _short_runs(full, longest) < _FEWEST * max(_RUNS, _DEEP * thin_px):
         return ink
-    fitting = _widest_that_fits(full)
+    fitting = _widest_that_fits(full, thin_px)
     if fitting is None:
         return ink
     closed, width_px = fitting
     found = closed & ~full
-    if np.count_nonzero(found & ~ink.mask) < _FEWEST:
+    white = np.flatnonzero(found & ~ink.mask)
+    inside = _surrounded(closed, white, 2 * int(_DEEP * width_px) + 1) if len(white) >= _FEWEST else white
+    if len(inside) < _FEWEST:
         return ink
-    inside = found & _shrunk(closed, 2 * int(_DEEP * width_px) + 1)
-    if np.count_nonzero(inside & ~ink.mask) < _FEWEST:
-        return ink
-    slits = _across_one_stroke(closed, found, inside & ~ink.mask, width_px)
+    slits = _across_one_stroke(closed, found, inside, width_px)
     if slits is None:
         return ink
     grey = ink.grey.copy()
@@ -75,12 +75,13 @@ def _short_runs(mask: Mask, longest: int) -> int:
     return count
 
 
-def _widest_that_fits(mask: Mask) -> tuple[Mask, float] | None:
+def _widest_that_fits(mask: Mask, width_px: float) -> tuple[Mask, float] | None:
     """The ink with the widest slits closed that its strokes, so closed, allow; and their width in pixels.
 
-    Slits make strokes look thin, so closing them may allow wider ones.
+    `width_px` is how broad they look before. Slits make strokes look thin, so closing them may allow wider
+    ones.
     """
-    fitting, width_px, closed_px = None, _stroke_px(mask), 0
+    fitting, closed_px = None, 0
     while closed_px < (widest := int(min(_WIDEST * width_px, _WIDEST_PX))):
         closed = _closed(mask, widest)
         width_px, closed_px = _stroke_px(closed), widest
@@ -88,16 +89,23 @@ def _widest_that_fits(mask: Mask) -> tuple[Mask, float] | None:
     return fitting
 
 
-def _across_one_stroke(closed: Mask, found: Mask, inside: Mask, width_px: float) -> Mask | None:
-    """Those pieces of `found` where the closed ink is one stroke; nothing where too few reach inside."""
+def _across_one_stroke(closed: Mask, found: Mask, inside: Places, width_px: float) -> Mask | None:
+    """Those pieces of `found` where the closed ink is one stroke; nothing where too few reach inside.
+
+    `inside` are places in the flat picture.
+    """
     from scipy.ndimage import distance_transform_edt, find_objects, label, maximum
 
     pieces, count = label(found, np.ones((3, 3)))
     numbers = np.arange(1, count + 1)
-    depth = np.asarray(maximum(distance_transform_edt(closed), pieces, numbers))
     spans = [np.hypot(*(side.stop - side.start for side in box)) for box in find_objects(pieces)]
-    slit = (depth <= _ONE_STROKE * width_px) & (np.array(spans) <= _LONGEST * width_px)
-    if np.count_nonzero(slit[np.unique(pieces[inside]) - 1]) < _FEWEST:
+    short, deep = np.array(spans) <= _LONGEST * width_px, np.unique(pieces.flat[inside]) - 1
+    # Distances take most of the time, and most pictures have too few short pieces.
+    if np.count_nonzero(short[deep]) < _FEWEST:
+        return None
+    depth = np.asarray(maximum(distance_transform_edt(closed), pieces, numbers))
+    slit = (depth <= _ONE_STROKE * width_px) & short
+    if np.count_nonzero(slit[deep]) < _FEWEST:
         return None
     return np.concatenate([[False], slit])[pieces]
 
@@ -110,31 +118,30 @@ def _stroke_px(mask: Mask) -> float:
 
 def _closed(mask: Mask, width: int) -> Mask:
     """The ink with all paper filled into which no square of `width` + 1 pixels fits."""
-    padded = np.pad(mask, width + 1)
-    grown = _run(_run(padded, width + 1, 0), width + 1, 1)
-    closed = ~_run(_run(~grown, width + 1, 0, back=True), width + 1, 1, back=True)
-    return closed[width + 1 : -width - 1, width + 1 : -width - 1]
+    squares = _runs(_runs(np.pad(mask, width), width + 1, 0, np.logical_or), width + 1, 1, np.logical_or)
+    return _runs(_runs(squares, width + 1, 0, np.logical_and), width + 1, 1, np.logical_and)
 
 
-def _shrunk(mask: Mask, side: int) -> Mask:
-    """Where a square with an odd side around a pixel is all ink; beyond the picture is paper."""
-    padded = np.pad(~mask, side, constant_values=True)
-    first = side + side // 2
-    grown = _run(_run(padded, side, 0), side, 1)
-    return ~grown[first : first + mask.shape[0], first : first + mask.shape[1]]
+def _surrounded(mask: Mask, places: Places, side: int) -> Places:
+    """Those places in the flat picture around which a square with an odd side is all ink."""
+    half, width = side // 2, mask.shape[1]
+    padded = np.pad(mask, half)
+    row, column = np.divmod(places, width)
+    at = (row + half) * padded.shape[1] + column + half
+    reach = range(-half, half + 1)
+    # Corners first: most squares have paper there, and are looked at no more.
+    steps = sorted(((y, x) for y in reach for x in reach), key=lambda step: -abs(step[0] * step[1]))
+    for y, x in steps:
+        ink = padded.ravel()[at + (y * padded.shape[1] + x)]
+        places, at = places[ink], at[ink]
+    return places
 
 
-def _run(mask: Mask, length: int, axis: int, back: bool = False) -> Mask:
-    """Each pixel or any of the `length` - 1 before it (behind it with `back`), by doubling."""
-    out = mask.copy()
+def _runs(mask: Mask, length: int, axis: int, together: np.ufunc) -> Mask:
+    """Each run of `length` pixels along an axis put together, by doubling: `length` - 1 fewer."""
     reached = 1
     while reached < length:
         step = min(reached, length - reached)
-        ahead, behind = (slice(step, None), slice(None, -step))
-        to, source = (behind, ahead) if back else (ahead, behind)
-        if axis == 0:
-            out[to] |= out[source]
-        else:
-            out[:, to] |= out[:, source]
-        reached += step
-    return out
+        pair = (mask[:-step], mask[step:]) if axis == 0 else (mask[:, :-step], mask[:, step:])
+        mask, reached = together(*pair), reached + step
+    return mask

@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.image import GreyImage, bands_of
+from wrapit.drawing.bitmap.image import GreyImage, bands_of, count_levels
+from wrapit.drawing.bitmap.page.extremes import highest, lowest
 
 BoolCells = NDArray[np.bool_]
 # How many cells has the longer side? A scan's dark edge of one per cent is then five cells broad.
@@ -22,6 +23,9 @@ _BLACK = np.uint8(8)
 # What is ink, seen from afar? Darker than this share of the paper around it: thin lines are pale in cells
 # broader than they are, and paper's own grain, averaged over a cell, keeps above .9.
 _INK = 0.75
+# What is a step of the paper's level? A change by this ratio (as a logarithm) within three cells. A lamp's
+# shadow that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
+STEP = 0.14
 # How broad must the look be that sees past strokes? So many times their width, as at crossings ink is
 # broader, and at least so many cells.
 _PAST_STROKES = 2.5
@@ -46,19 +50,30 @@ class Cells:
         """Where something is clearly darker than what surrounds it."""
         return self.level < _INK * self.paper
 
+    @cached_property
+    def pieces(self) -> tuple[NDArray[np.int32], list[tuple[slice, slice]]]:
+        """The number of the piece of ink that each cell belongs to, 0 where none; the box of each piece."""
+        from scipy.ndimage import find_objects, label
+
+        labels, _ = label(self.ink, np.ones((3, 3)))
+        return labels, find_objects(labels)
+
+    @cached_property
+    def is_even(self) -> bool:
+        """Whether the paper's level changes by less than a step (`STEP`) all over the picture."""
+        return bool(np.log(self.paper.max() / self.paper.min()) < STEP)
+
 
 def cells_of(grey: GreyImage) -> Cells:
     """The cells of a grey picture with dark ink on light paper."""
     from PIL import Image
-    from scipy.ndimage import maximum_filter, minimum_filter
 
     step = max(1, -(-max(grey.shape) // _CELLS))
     small = np.maximum(np.asarray(Image.fromarray(np.ascontiguousarray(grey)).reduce(step)), _BLACK)
     level = small.astype(np.float32)
-    stroke = _stroke(level)
+    stroke = _stroke(level, _median(small))
     look = int(max(_LEAST_LOOK, np.ceil(_PAST_STROKES * stroke))) | 1
-    # Filters take a quarter of the time on bytes.
-    paper = minimum_filter(maximum_filter(small, look, mode="nearest"), look, mode="nearest")
+    paper = lowest(highest(small, look), look)
     return Cells(level, paper.astype(np.float32), step, stroke, look)
 
 
@@ -83,9 +98,10 @@ def rim_of(where: BoolCells) -> BoolCells:
     return np.concatenate([where[0], where[-1], where[:, 0], where[:, -1]])
 
 
-def depth(shape: tuple[int, ...]) -> NDArray[np.int64]:
+def depth(shape: tuple[int, ...]) -> NDArray[np.int16]:
     """How many cells each cell lies from the nearest side of the picture."""
-    rows, columns = (np.minimum(np.arange(n), np.arange(n)[::-1]) for n in shape)
+    places = (np.arange(n, dtype=np.int16) for n in shape)
+    rows, columns = (np.minimum(at, at[::-1]) for at in places)
     return np.minimum(rows[:, None], columns[None])
 
 
@@ -106,13 +122,22 @@ def sides(where: BoolCells) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words) or "inside"
 
 
-def _stroke(level: NDArray[np.float32]) -> float:
+def _median(levels: GreyImage) -> np.float32:
+    """The median of bytes: counting them takes a fifth of the time of parting them."""
+    total = np.cumsum(count_levels(levels))
+    low, high = np.searchsorted(total, [(levels.size - 1) // 2, levels.size // 2], side="right")
+    return np.float32((low + high) / 2)
+
+
+def _stroke(level: NDArray[np.float32], usual: np.float32) -> float:
     """How many cells broad strokes are: the usual run of dark cells along rows and columns."""
-    dark = level < _INK * np.median(level)
+    dark = level < _INK * usual
     runs = []
     for picture in (dark, dark.T):
-        padded = np.pad(picture, ((0, 0), (1, 1)))
-        changes = np.flatnonzero(np.diff(padded.ravel()))
+        padded = np.zeros((picture.shape[0], picture.shape[1] + 2), dtype=np.bool_)
+        padded[:, 1:-1] = picture
+        flat = padded.ravel()
+        changes = np.flatnonzero(flat[1:] != flat[:-1])
         first, last = changes[::2], changes[1::2]
         # Runs that touch the picture's side are no strokes.
         width = padded.shape[1]

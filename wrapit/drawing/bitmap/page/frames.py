@@ -21,13 +21,13 @@ _BLUR = 2
 
 def find_frame(cells: Cells) -> BoolCells | None:
     """The cells of the outermost frame; nothing where there is none."""
-    from scipy.ndimage import binary_dilation, find_objects, label
+    from scipy.ndimage import binary_dilation
 
-    ink = cells.ink
-    labels, count = label(ink, np.ones((3, 3)))
+    ink, (labels, pieces) = cells.ink, cells.pieces
+    count = len(pieces)
     if count < 2:
         return None
-    boxes = np.array([[box[0].start, box[1].start, box[0].stop, box[1].stop] for box in find_objects(labels)])
+    boxes = np.array([[box[0].start, box[1].start, box[0].stop, box[1].stop] for box in pieces])
     low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
     hugging = _hugging(labels, count, low, high)
     rest = ~hugging

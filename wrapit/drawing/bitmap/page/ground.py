@@ -11,11 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.page.cells import BoolCells, Cells, depth, rim_of
+from wrapit.drawing.bitmap.page.cells import STEP, BoolCells, Cells, depth, rim_of
+from wrapit.drawing.bitmap.page.extremes import highest, lowest
 
-# What is a step? A change of the level by this ratio (as a logarithm) within three cells. A lamp's shadow
-# that fades over 5 % of the picture changes by .08, the blurred edge of paper on a pale table by .2.
-_STEP = 0.14
 # Through how narrow a place does paper not go on, in cells more than half the look past strokes? Where a
 # paper's slanted edge meets the side, the ground beside it is as narrow as a stroke: its step is gone.
 _LEAK = 1
@@ -57,9 +55,9 @@ def find_ground(cells: Cells) -> Ground | None:
     """The ground around the paper; nothing where the paper fills the picture."""
     from scipy.ndimage import binary_dilation, binary_erosion, label
 
-    if _is_even(cells):
+    if cells.is_even:
         return None
-    flat = _steps(cells, 3) < _STEP
+    flat = _steps(cells, 3) < STEP
     if flat.all():
         return None
     narrow = cells.look // 2 + _LEAK
@@ -86,9 +84,9 @@ def edge_of_light(cells: Cells) -> BoolCells:
     """The cells of a long step of the paper's level, as a shadow's edge is; none where there is no such."""
     from scipy.ndimage import find_objects, label
 
-    if _is_even(cells):
+    if cells.is_even:
         return np.zeros(cells.paper.shape, dtype=np.bool_)
-    steps = _steps(cells, 3) >= _STEP
+    steps = _steps(cells, 3) >= STEP
     if not steps.any():
         return steps
     labels, _ = label(steps, np.ones((3, 3)))
@@ -105,18 +103,10 @@ def edge_of_light(cells: Cells) -> BoolCells:
 
 def _steps(cells: Cells, reach: int) -> NDArray[np.float32]:
     """By how much the paper's level changes within so many cells, as a logarithm."""
-    from scipy.ndimage import maximum_filter, minimum_filter
-
-    # Filters take a quarter of the time on bytes, which the paper's levels are.
     level = cells.paper.astype(np.uint8)
-    highest, lowest = maximum_filter(level, reach), minimum_filter(level, reach)
-    steps: NDArray[np.float32] = np.log(highest, dtype=np.float32) - np.log(lowest, dtype=np.float32)
+    high, low = highest(level, reach), lowest(level, reach)
+    steps: NDArray[np.float32] = np.log(high, dtype=np.float32) - np.log(low, dtype=np.float32)
     return steps
-
-
-def _is_even(cells: Cells) -> bool:
-    """Whether the paper's level changes by less than a step all over the picture."""
-    return bool(np.log(cells.paper.max() / cells.paper.min()) < _STEP)
 
 
 def _paper_region(cells: Cells, regions: NDArray[np.int32], count: int) -> int | None:
