@@ -249,12 +249,13 @@ def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatA
     grey = ink.framed
     height, width = grey.shape
     x, y = (_clipped(points[:, k], offsets, directions[:, k], side) for k, side in ((0, width), (1, height)))
-    column, row = x.astype(np.int32), y.astype(np.int32)
+    column, row = np.floor(x), np.floor(y)
     x -= column
     y -= row
     flat = grey.ravel()
     # Places are looked up four times, each of which would widen them anew.
-    at = (row * width + column).astype(np.intp)
+    at = (row.astype(np.int32) * width + column.astype(np.int32)).astype(np.intp)
+    at += width + 1  # beside and below the frame
     a, b, c, d = (flat[step:].take(at).astype(np.float32) for step in (0, 1, width, width + 1))
     b -= a
     b *= x
@@ -269,9 +270,9 @@ def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatA
 
 
 def _clipped(at: FloatArray, offsets: FloatArray, direction: FloatArray, side: int) -> NDArray[np.float32]:
-    """One coordinate (n, k) at offsets from places (n,), in the framed picture of this side."""
+    """One coordinate (n, k) at offsets from places (n,), within a picture whose frame has this side."""
     found = offsets * direction[:, None]
-    found += at[:, None] + 1
-    np.maximum(found, 0, out=found)
-    np.minimum(found, side - 1.001, out=found)
+    found += at[:, None]
+    np.maximum(found, -1, out=found)
+    np.minimum(found, side - 2.01, out=found)  # not .001: at 10,000 px single precision tells .001 apart
     return found.astype(np.float32)
