@@ -249,12 +249,13 @@ def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatA
     grey = ink.framed
     height, width = grey.shape
     x, y = (_clipped(points[:, k], offsets, directions[:, k], side) for k, side in ((0, width), (1, height)))
-    column, row = x.astype(np.int32), y.astype(np.int32)
-    x -= column
-    y -= row
+    # Places are looked up four times, each of which would widen smaller numbers anew.
+    at = y.astype(np.intp)
+    at *= width
+    at += x.astype(np.intp)
+    x -= np.floor(x)
+    y -= np.floor(y)
     flat = grey.ravel()
-    # Places are looked up four times, each of which would widen them anew.
-    at = (row * width + column).astype(np.intp)
     a, b, c, d = (flat[step:].take(at).astype(np.float32) for step in (0, 1, width, width + 1))
     b -= a
     b *= x
