@@ -252,10 +252,12 @@ def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatA
     column, row = np.floor(x), np.floor(y)
     x -= column
     y -= row
-    flat = grey.ravel()
-    # Places are looked up four times, each of which would widen them anew.
-    at = (row.astype(np.int32) * width + column.astype(np.int32)).astype(np.intp)
+    # Places are looked up four times, each of which would widen smaller numbers anew.
+    at = row.astype(np.intp)
+    at *= width
+    at += column.astype(np.intp)
     at += width + 1  # beside and below the frame
+    flat = grey.ravel()
     a, b, c, d = (flat[step:].take(at).astype(np.float32) for step in (0, 1, width, width + 1))
     b -= a
     b *= x

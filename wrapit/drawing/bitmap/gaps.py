@@ -64,10 +64,10 @@ def cut_tails(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: fl
     for node in [node for node in graph.nodes if graph.degree(node) == 1]:
         strand, end = graph.ends_at(node)[0]
         line = lines[strand]
-        from_tip = line.along if end == 0 else line.length - line.along
-        before = _part(line, from_tip >= _TAIL * width_px)
         if line.length < _TAILED * width_px:
             continue
+        from_tip = line.along if end == 0 else line.length - line.along
+        before = _part(line, from_tip >= _TAIL * width_px)
         last = arm(before, strand, end, width_px)
         start, slope = last.at(0.0)
         cap = find_cap(start, -slope, width_px, ink)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ _FARTHEST = 3.0
 # earlier there, while the grey of a flat cap's corners is still farther out; at 0.42 hard edges misled.
 _ASIDE = 0.36
 _LINES = 9
+_ACROSS = np.linspace(-_ASIDE, _ASIDE, _LINES)
 # How much of a circle's bulge does a flat end have, at most? Half; of ends rendered at 4 to
 # 30 px all round ones read as round, flat ones as flat but for a few of 4 px, and of hard ones up to 9 px.
 _FLAT = 0.5
@@ -39,11 +41,11 @@ def find_cap(start: FloatArray, ahead: FloatArray, width_px: float, ink: Ink) ->
     edge = _ends(start[None], ahead, steps, ink)[0]
     if not np.isfinite(edge):
         return None
-    sides = np.array(edges(ink, start[None], across[None], width_px, 0.5))[:, 0]
-    broad = float(sides.sum()) if np.isfinite(sides).all() else width_px
-    broad = float(np.clip(broad, 0.6 * width_px, 1.5 * width_px))
-    middle = start + (sides[1] - sides[0]) / 2 * across if np.isfinite(sides).all() else start
-    aside = np.linspace(-_ASIDE, _ASIDE, _LINES) * broad
+    against, along = (float(side[0]) for side in edges(ink, start[None], across[None], width_px, 0.5))
+    known = math.isfinite(against + along)
+    broad = min(max(against + along if known else width_px, 0.6 * width_px), 1.5 * width_px)
+    middle = start + (along - against) / 2 * across if known else start
+    aside = _ACROSS * broad
     ends = _ends(middle + aside[:, None] * across, ahead, steps, ink)
     if not np.isfinite(ends).all():
         return Cap(float(edge), broad, False)
