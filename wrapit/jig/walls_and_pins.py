@@ -19,8 +19,8 @@ from wrapit.jig.wrapping.needs import planned_walls
 from wrapit.wires.model import Turn, Wire
 
 # How many groups of wires are remembered with their walls, from one kind of jig to the next? A piece whose
-# wires are parted tries the whole and each wire alone: 100 holds all of a piece of 99 wires. With 12, those of
-# a piece of 200 segments (34 groups) were all planned again for sheet.
+# wires are parted tries the whole and each wire alone: 100 holds all of a piece of 99 wires. With 12, the 34
+# groups of a piece of 200 segments were all planned again for sheet.
 _REMEMBERED = 100
 
 
