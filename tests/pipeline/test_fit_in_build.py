@@ -208,6 +208,17 @@ def test_an_offer_was_tried_and_no_file_says_it(
     assert then["fit"]["level"] == "gentle"
 
 
+def test_a_large_drawing_is_not_tried(
+    config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, leaving_out: Callable[..., list[str]]
+) -> None:
+    taken = leaving_out({})
+    monkeypatch.setattr(offering, "_MOST_SEGMENTS", 1)
+    result = build(config, tmp_path / "out", until="wires")
+    (said,) = {f["remedy"] for f in result.report["findings"] if f["code"] == "tight-bend"}
+    assert said.endswith("; try fit: bold, with so many lines it takes long")
+    assert taken == []
+
+
 def test_the_gentlest_that_does_is_offered(
     config: Path, tmp_path: Path, curl: int, leaving_out: Callable[..., list[str]]
 ) -> None:
