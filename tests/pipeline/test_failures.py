@@ -68,7 +68,10 @@ def _cases(folder: Path) -> dict[str, tuple[int, list[str]]]:
     build = ["build", str(config), "-o", str(folder / "out")]
     return {
         "export": (1, ["build", str(config), "-o", "/proc/out"]),
-        "kernel": (1, [*build, "--set", "jig.time_limit=1 s", "--set", "jigs=[printed]"]),
+        "kernel": (
+            1,
+            [*build, "--set", "jig.time_limit=1 s", "--set", "jigs=[printed]", "--set", "outputs=[stl]"],
+        ),
         "config": (2, [*build, "--set", "size=40"]),
         "usage": (2, [*build, "--frobnicate"]),
         "drawing": (3, ["build", str(folder / "empty.yaml")]),

@@ -18,6 +18,7 @@ from wrapit.pipeline.worker import Job, OnCall
 if TYPE_CHECKING:
     from wrapit.jig.made import Each, JigMaker, Made, Planned, View, Wires
 
+S = TypeVar("S")
 T = TypeVar("T")
 
 
@@ -128,20 +129,20 @@ def _tried(make: Callable[[Wires, Config], T], work: Work) -> T | UnheldError:
 
 def start(work: Work, kernel: OnCall, what: str, function: Callable[..., Any], *arguments: Any) -> Job:
     """Gives the kernel's process a function; errors name the piece and `what` it makes of it."""
-    return kernel.worker().start(_named(work, what), _limit_s(work), function, *arguments)
+    return kernel.worker().start(f"{kernel.piece}: {what}", _limit_s(work, kernel), function, *arguments)
 
 
 def each_beside(work: Work, kernel: OnCall, what: str) -> Each:
-    """Makes like things in both processes."""
-    return shared(kernel, _named(work, what), _limit_s(work))
+    """Makes like things in both processes; nothing is loaded before there are some."""
+
+    def each(make: Callable[[S], T], things: Sequence[S], /) -> list[T]:
+        return shared(kernel, f"{kernel.piece}: {what}", _limit_s(work, kernel))(make, things)
+
+    return each
 
 
-def _named(work: Work, what: str) -> str:
-    return f"{work.config.name}: {what}"
-
-
-def _limit_s(work: Work) -> float:
-    return work.config.jig.time_limit or 120 + 60 * len(work.wires)
+def _limit_s(work: Work, kernel: OnCall) -> float:
+    return kernel.limit_s or 120 + 60 * len(work.wires)
 
 
 def _outcome(made: Made, files: Sequence[str]) -> Outcome:

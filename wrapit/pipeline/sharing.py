@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from wrapit.jig.made import Each
 from wrapit.pipeline.worker import Job, OnCall
+
+if TYPE_CHECKING:
+    from wrapit.jig.made import Each
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -37,7 +37,7 @@ def run_stages(work: Work, folder: Path | None) -> None:
 
     Raises the WrapItError of the stage that fails, UnreadableEntry where the cache holds what can't be read.
     """
-    with OnCall(_worker) as kernel:
+    with OnCall(_worker, work.config.name, work.config.jig.time_limit) as kernel:
         if _needs_kernel(work, files=folder is not None):
             kernel.worker()  # it loads while other stages run
         _trace(work, folder)

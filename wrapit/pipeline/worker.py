@@ -131,9 +131,13 @@ class Worker:
 
 
 class OnCall:
-    """A worker that is started when it is first asked for, if ever."""
+    """A worker that is started when it is first asked for, if ever.
 
-    def __init__(self, hired: Callable[[], Worker]) -> None:
+    Errors name the piece that it works for; each function has `limit_s`, None where that hangs on the piece.
+    """
+
+    def __init__(self, hired: Callable[[], Worker], piece: str = "", limit_s: float | None = None) -> None:
+        self.piece, self.limit_s = piece, limit_s
         self._hired = hired
         self._worker: Worker | None = None
         self._stack = contextlib.ExitStack()

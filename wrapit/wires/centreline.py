@@ -13,7 +13,7 @@ import numpy as np
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, cut
 from wrapit.wires.fairing import faired
-from wrapit.wires.rounding import GROWTH, NO_BLEND, Blend, best_blend
+from wrapit.wires.rounding import NO_BLEND, Blend, best_blend
 
 # What is rounded, how far, and what isn't. On three of our drawings a third more or less of the first three
 # moves no wire; they bound what strange drawings may ask for.
@@ -86,23 +86,15 @@ def join(
             joints_mm.append(at_mm + half)
             chain += blend.curves
             at_mm += 2 * half
-    bends = [bend_rad(*pair) for pair in itertools.pairwise(pieces)]
     corners = tuple(
-        Corner(joint_mm, bend, blend.radius_mm, blend.deviation_mm)
-        for joint_mm, bend, blend in zip(joints_mm[1:], bends, blends, strict=True)
+        Corner(joint_mm, bend_rad(*pair), blend.radius_mm, blend.deviation_mm)
+        for joint_mm, pair, blend in zip(joints_mm[1:], itertools.pairwise(pieces), blends, strict=True)
         if blend.curves
     )
-    # A corner without room is narrower than what stations of `_tight_spans` see: it is named.
-    cramped = [
-        (joint_mm, joint_mm)
-        for joint_mm, bend, blend in zip(joints_mm[1:], bends, blends, strict=True)
-        if SMOOTH_BEND_RAD <= bend <= FOLD_RAD
-        and (not blend.curves or blend.radius_mm < HAIRPIN_SHARE * min_radius_mm)
-    ]
     bounds_mm = [*joints_mm, at_mm]
     firsts = itertools.accumulate((len(group) for group in split), initial=0)
     spans_mm = tuple(itertools.pairwise(bounds_mm[first] for first in firsts))
-    return _relaxed(Joined(_connected(chain), spans_mm, corners), min_radius_mm, cramped)
+    return _relaxed(Joined(_connected(chain), spans_mm, corners), min_radius_mm)
 
 
 def bend_rad(before: BezierChain, after: BezierChain) -> float:
@@ -164,53 +156,34 @@ def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius
     return blend if apart_mm >= 2 * least_mm else NO_BLEND
 
 
-def _relaxed(joined: Joined, min_radius_mm: float, cramped: Sequence[tuple[float, float]]) -> Joined:
-    """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough.
-
-    `cramped` are corners that had no room between their neighbours, such as one just beside a crossing.
-    """
-    for start_mm, end_mm in reversed(
-        _merged([*_tight_spans(joined.chain, min_radius_mm), *cramped], min_radius_mm)
-    ):
+def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
+    """Spans that bend more tightly than the metal allows are widened, where a short stretch is enough."""
+    for start_mm, end_mm in reversed(_tight_spans(joined.chain, min_radius_mm)):
         middle, half = (start_mm + end_mm) / 2, (end_mm - start_mm) / 2
         room = min(middle, joined.chain.length - middle, half + RELAX_RADII * min_radius_mm) - 1e-3
         if room <= half:
             continue
         before, after = cut(joined.chain, middle)
         blend = best_blend(before, after, half + 0.05, room, min_radius_mm)
-        near = any(start_mm <= at_mm <= end_mm for at_mm, _ in cramped)
-        allowed_mm = _corner_cut_mm(before, after, blend, min_radius_mm) if near else min_radius_mm
-        if blend.curves and blend.radius_mm >= 0.999 * min_radius_mm and blend.deviation_mm <= allowed_mm:
+        if blend.curves and blend.radius_mm >= 0.999 * min_radius_mm and blend.deviation_mm <= min_radius_mm:
             joined = _replaced(joined, middle, before, after, blend)
     return joined
 
 
-def _corner_cut_mm(before: BezierChain, after: BezierChain, blend: Blend, radius_mm: float) -> float:
-    """By how much a bend of this radius cuts such a corner where it has all the room; or the radius."""
-    head, tail = _trimmed(before, 0.0, blend.trim_mm), _trimmed(after, blend.trim_mm, 0.0)
-    bend = min(bend_rad(head, tail), TIP_RAD)
-    return radius_mm * max(1.0, GROWTH / math.cos(bend / 2) - 1)
-
-
 def _tight_spans(chain: BezierChain, min_radius_mm: float) -> list[tuple[float, float]]:
-    """Where the curvature is beyond the metal's."""
+    """Where the curvature is beyond the metal's, joined where they are nearer than that radius."""
     lengths = ArcLength(from_chain(chain))
     at_mm = lengths.stations(0.02)
     middle_mm = (at_mm[:-1] + at_mm[1:]) / 2
     tight = np.abs(lengths.spline.curvature(lengths.parameter(middle_mm))) > 1.01 / min_radius_mm
-    bounds = np.flatnonzero(np.diff(np.r_[False, tight, False])).reshape(-1, 2)
-    return [(float(at_mm[a]), float(at_mm[b])) for a, b in bounds]
-
-
-def _merged(spans: Sequence[tuple[float, float]], apart_mm: float) -> list[tuple[float, float]]:
-    """The spans in order, joined where they are nearer than that."""
-    merged: list[tuple[float, float]] = []
-    for start, end in sorted(spans):
-        if merged and start - merged[-1][1] < apart_mm:
-            merged[-1] = (merged[-1][0], max(merged[-1][1], end))
+    spans: list[tuple[float, float]] = []
+    for a, b in np.flatnonzero(np.diff(np.r_[False, tight, False])).reshape(-1, 2):
+        start, end = float(at_mm[a]), float(at_mm[b])
+        if spans and start - spans[-1][1] < min_radius_mm:
+            spans[-1] = (spans[-1][0], end)
         else:
-            merged.append((start, end))
-    return merged
+            spans.append((start, end))
+    return spans
 
 
 def _replaced(
@@ -227,15 +200,9 @@ def _replaced(
         )
 
     chain = [_trimmed(before, 0.0, blend.trim_mm), *blend.curves, _trimmed(after, blend.trim_mm, 0.0)]
-    corners = [
-        dataclasses.replace(corner, at_mm=moved(corner.at_mm))
-        for corner in joined.corners
-        if not low < corner.at_mm < high
-    ]
+    corners = [dataclasses.replace(corner, at_mm=moved(corner.at_mm)) for corner in joined.corners]
     bend = _turning(chain[0].end_tangent, chain[-1].start_tangent)
-    # What was widened before strayed from the drawing already, and the blend strays from that.
-    strayed_mm = max((c.deviation_mm for c in joined.corners if low < c.at_mm < high), default=0.0)
-    corners.append(Corner(low + new_mm / 2, bend, blend.radius_mm, blend.deviation_mm + strayed_mm))
+    corners.append(Corner(low + new_mm / 2, bend, blend.radius_mm, blend.deviation_mm))
     spans = tuple((moved(start), moved(end)) for start, end in joined.spans_mm)
     return Joined(_connected(chain), spans, tuple(sorted(corners, key=lambda corner: corner.at_mm)))
 

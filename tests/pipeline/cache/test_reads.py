@@ -20,6 +20,7 @@ from wrapit.pipeline.build import build
 from wrapit.pipeline.cache.remembering import Outcome
 from wrapit.pipeline.reads import STEPS, all_reads
 from wrapit.pipeline.work import Work
+from wrapit.pipeline.worker import Job
 
 # Together they come by each branch that asks for a key of its own: each kind, a pair, both bails, seats,
 # overbending, pegs, several jigs, both solvers, bridges.
@@ -54,7 +55,7 @@ class Here:
     """A worker that works at once, in this process."""
 
     def __init__(self, recorder: Recorder) -> None:
-        self._recorder, self._answers = recorder, list[Any]()
+        self._recorder = recorder
 
     def __enter__(self) -> Self:
         return self
@@ -62,12 +63,17 @@ class Here:
     def __exit__(self, *_: object) -> None:
         pass
 
-    def start(self, function: Callable[..., Any], *arguments: Any) -> None:
-        self._answers.append(function(*arguments))
+    def start(self, where: str, limit_s: float, function: Callable[..., Any], *arguments: Any) -> Job:
+        answer = True, function(*arguments)
         self._recorder.step = ""
+        return Job(where, limit_s, 0.0, answer)
 
-    def result(self, *_: object) -> Any:
-        return self._answers.pop(0)
+    def is_free(self) -> bool:
+        return False  # all that is shared is made at once
+
+    def result(self, job: Job) -> Any:
+        assert job.answer is not None
+        return job.answer[1]
 
 
 class Recorder:
