@@ -117,26 +117,24 @@ def test_what_differs_is_noticed(line: str, what: list[str]) -> None:
     assert [each.partition(": ")[2] for each in strange(line)] == what
 
 
-def types_there(system: str, *files: Path) -> subprocess.CompletedProcess[str]:
-    """What mypy says of the source as it would run on another system: which names there are there."""
-    cache = ROOT / ".mypy_cache" / system
-    command = [
-        sys.executable,
-        "-m",
-        "mypy",
-        "--platform",
-        system,
-        "--cache-dir",
-        str(cache),
-        *map(str, files),
-    ]
-    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False, timeout=600)
+def lacking(system: str, *files: Path) -> list[str]:
+    """What Python's own modules lack on another system, of what these files ask them for.
+
+    Other packages count as untyped: their types are checked once, on this system.
+    """
+    command = [sys.executable, "-m", "mypy", "--platform", system, *map(str, files)]
+    command += ["--config-file=", "--no-site-packages", "--ignore-missing-imports", "--check-untyped-defs"]
+    command += ["--cache-dir", str(ROOT / ".mypy_cache" / system)]
+    told = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False, timeout=600)
+    assert re.search(r"checked \d+ source file|no issues found in \d+", told.stdout), (
+        told.stdout + told.stderr
+    )
+    return [each for each in told.stdout.splitlines() if re.search("Module .*has no attribute", each)]
 
 
 @pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_no_module_asks_for_what_another_system_lacks(system: str) -> None:
-    told = types_there(system)
-    assert told.returncode == 0, told.stdout
+    assert lacking(system, HOUSE) == []
 
 
 @pytest.mark.parametrize(
@@ -144,6 +142,4 @@ def test_no_module_asks_for_what_another_system_lacks(system: str) -> None:
 )
 def test_what_windows_lacks_is_noticed(tmp_path: Path, line: str) -> None:
     (tmp_path / "lacking.py").write_text(f"{line}\n", encoding="utf-8")
-    told = types_there("win32", tmp_path / "lacking.py")
-    assert told.returncode == 1
-    assert "has no attribute" in told.stdout
+    assert lacking("win32", tmp_path / "lacking.py")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from pathlib import Path
+from collections.abc import Callable
 
 import ezdxf
 import numpy as np
@@ -14,14 +14,13 @@ from ezdxf.entities import DXFGraphic
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from tests.conftest import OPENED
 from wrapit.exports.contour_edges import as_chain
 from wrapit.exports.short_spans import without_short_lines, without_short_spans
 from wrapit.geometry import Arc, BezierChain, Line
 from wrapit.geometry.outlines.closing import SHORT_MM
-from wrapit.pipeline.build import build
+from wrapit.pipeline.build import Build
 
-CONFIGS = Path(__file__).parents[2] / "configs"
-NAMES = ("bee", "butterfly", "dolphin", "heart-knot", "leaf", "lotus", "mandala")
 SIZES = st.one_of(st.floats(0.002, 0.049), st.floats(0.06, 3.0))
 BENDS = st.one_of(st.floats(-2, 2), st.floats(-95, 95))
 
@@ -52,15 +51,6 @@ def lengths_of(entity: DXFGraphic) -> list[float]:
     return [2 * math.pi * entity.dxf.radius]
 
 
-@pytest.fixture(scope="module", params=NAMES)
-def plates(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """The laser's sheets of one of the project's own pieces."""
-    request.getfixturevalue("recalling")
-    folder = tmp_path_factory.mktemp(request.param)
-    build(CONFIGS / f"{request.param}.yaml", folder / "out", ("outputs=[dxf]", "jigs=[sheet]"))
-    return sorted((folder / "out").glob("plate-*.dxf"))
-
-
 def sizes_of(chain: BezierChain) -> list[float]:
     return [BezierChain(cubic[None]).length for cubic in chain.points]
 
@@ -80,7 +70,12 @@ def test_open_chains_keep_their_ends_and_have_long_spans(sides: list[tuple[float
     assert was.hausdorff_distance(now) <= (short + 1) * SHORT_MM
 
 
-def test_built_plates_have_no_short_span(plates: list[Path]) -> None:
+@pytest.mark.parametrize("name", OPENED)
+def test_built_plates_have_no_short_span(piece: Callable[[str], Build], name: str) -> None:
+    folder = piece(name).folder
+    assert folder is not None
+    plates = sorted(folder.glob("plate-*.dxf"))
+    assert plates
     for path in plates:
         for entity in ezdxf.readfile(path).modelspace():
             assert min(lengths_of(entity)) >= 0.99 * SHORT_MM, f"{path.name}: {entity}"
