@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
 from tests.bench.drawing import CORPUS
+from tests.bench.hard_edges import points_px
 from tests.drawing.bitmap.figures import ACROSS, CENTRE, SIZE_PX, TURNS, few, turned
 from tests.drawing.generated import render
 from wrapit.config import TracingConfig
@@ -71,6 +72,51 @@ def test_a_hard_edged_wave_has_the_curves_of_the_smooth_one(tmp_path, bend, turn
     away = np.linalg.norm((hard[2][::8, None] + 0.5) / times - 0.5 - smooth[2][None], axis=2).min(axis=1)
     # Each of the two fits may leave its points by 0.04 widths.
     assert np.percentile(away, 95) < 0.5 + 0.04 * width
+
+
+def off_the_lines_px(drawing, lines):
+    """How far the drawing lies off the true lines, in pixels, at points a fifth of one apart.
+
+    Places beyond 100 px from the middle are left out: whether an end is round or flat is another question.
+    """
+    from scipy.spatial import cKDTree
+
+    true = [np.linspace(a, b, 5 * int(np.hypot(*(b - a))) + 2) for c in lines for a, b in pairwise(c)]
+    points = points_px(drawing)
+    near = np.linalg.norm(points - CENTRE, axis=1) < 100
+    return cKDTree(np.concatenate(true)).query(points[near])[0]
+
+
+def hard_edged(lines, width, path):
+    edged = np.where(render(lines, width, (SIZE_PX, SIZE_PX)) < 128, 0, 255).astype(np.uint8)
+    Image.fromarray(edged).save(path)
+    return trace(path, TracingConfig(), 60.0)[0]
+
+
+def random_strokes(seed):
+    """A joint's two lines and a bend's one, turned at random, and a width: level edges have no middle."""
+    rng = np.random.default_rng(seed)
+    turn, shift = rng.uniform(0, 2 * np.pi), rng.uniform(-6, 6, 2)
+    stem, side = np.radians([rng.uniform(50, 130), -rng.uniform(60, 110)])
+    joint = [ACROSS, CENTRE + 140 * np.array([[0, 0], [np.cos(stem), -np.sin(stem)]])]
+    bend = np.vstack([[60 - CENTRE, 0], [0, 0], [150 * np.cos(side), -150 * np.sin(side)]]) + CENTRE
+    return [turned(c, turn, shift) for c in joint], [turned(bend, turn, shift)], rng.uniform(6, 15)
+
+
+@few
+@given(st.integers(0, 10_000))
+def test_hard_edged_joints_and_bends_lie_on_the_true_lines(tmp_path, seed):
+    worst, sides = [], []
+    for part in range(8):
+        joint, bend, width = random_strokes([seed, part])
+        drawing = hard_edged(joint, width, tmp_path / "joint.png")
+        assert sorted(len(ends) for ends in drawing.half_edges()) == [1, 1, 1, 3]
+        worst.append(off_the_lines_px(drawing, joint).max())
+        sides.append(
+            np.percentile(off_the_lines_px(hard_edged(bend, width, tmp_path / "bend.png"), bend), 90)
+        )
+    assert np.mean(worst) < 0.5
+    assert np.mean(sides) < 0.32
 
 
 @pytest.mark.skipif(not (CORPUS / "evaluate.py").exists(), reason="the corpus is not here; set WRAPIT_CORPUS")

@@ -51,7 +51,7 @@ class Line:
     width: FloatArray
     clean: NDArray[np.bool_]
     along: FloatArray
-    arms: dict[tuple[int, int, float], Any] = field(default_factory=dict, repr=False)
+    arms: dict[tuple[int, int, float, bool], Any] = field(default_factory=dict, repr=False)
 
     @property
     def length(self) -> float:

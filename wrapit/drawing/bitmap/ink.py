@@ -30,7 +30,10 @@ _LEAST_SHARE = 0.08
 
 @dataclass(frozen=True, eq=False)
 class Ink:
-    """The ink of a picture: `mask` (h, w) bool; `grey` (h, w) and its histogram."""
+    """The ink of a picture: `mask` (h, w) bool; `grey` (h, w) and its histogram.
+
+    `stair_px` is how high the stairs along its edges are: 0 where grey smooths them.
+    """
 
     mask: NDArray[np.bool_]
     grey: GreyImage
@@ -38,6 +41,7 @@ class Ink:
     ink: float
     shaded: bool
     histogram: NDArray[np.int64]
+    stair_px: float = 0.0
 
     @property
     def half(self) -> float:

@@ -36,14 +36,12 @@ _OUTLINE_PX = 8.0
 class Picture:
     """Ink and skeleton in working pixels; `factor` source pixels make one of them.
 
-    `stair_px` is how high the stairs along its edges are, in working pixels: 0 where grey smooths them.
     What was left out around the drawing is told in source pixels.
     """
 
     ink: Ink
     skeleton: Skeleton
     factor: float
-    stair_px: float = 0.0
     light_on_dark: bool = False
     changes: tuple[Change, ...] = ()
     notices: tuple[Notice, ...] = ()
@@ -124,7 +122,7 @@ def _picture(grey: GreyImage, path: Path, tracing: TracingConfig) -> Picture:
             found, factor, stair = find_ink(_enlarged(grey, times), str(path)), factor / times, stair * times
             ink = _inked(softened(found) if stair else found, tracing)
             skeleton = _skeleton(ink, path)
-    return Picture(ink, skeleton, factor, stair)
+    return Picture(replace(ink, stair_px=stair), skeleton, factor)
 
 
 def _skeleton(ink: Ink, path: Path) -> Skeleton:

@@ -32,11 +32,10 @@ _RAYS = 96
 _LIKE = 0.25
 
 Ends = dict[tuple[int, int], Ending]
+Rings = dict[int, tuple[FloatArray, Ends]]
 
 
-def ring_joints(
-    graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float
-) -> dict[int, tuple[FloatArray, Ends]]:
+def ring_joints(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width_px: float) -> Rings:
     """Where each small ring hangs at its stem, by node, and how both leave; the ring's line is renewed."""
     found = {}
     for node in graph.nodes:
