@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from tests.jig.metal import line
 from wrapit.geometry import BezierChain, from_chain
 from wrapit.kernel.round_wires.sweeps import round_wire
-from wrapit.wires.centreline import bend_rad, join
+from wrapit.wires.centreline import join
+from wrapit.wires.rounding import bend_rad
 
 RADIUS_MM, DIAMETER_MM, ARM_MM = 1.0, 1.0, 20.0
 LIFTS = ((0.0, 0.0), (17.0, 0.0), (19.5, 1.0), (20.5, 1.0), (23.0, 0.0), (30.0, 0.0))
@@ -87,6 +88,26 @@ def test_a_line_that_ends_just_behind_a_corner_ends_there(
 ) -> None:
     curves = cornered(math.radians(degrees), 10**exponent, None)
     assert_sound([curve.reversed() for curve in curves[::-1]] if backwards else curves, lifted)
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.floats(40, 140), st.floats(0.15, 0.6), st.floats(8, 30))
+@example(100.0, 0.4, 10.0)
+def test_a_corner_between_sides_of_short_lines_has_their_room(
+    degrees: float, step_mm: float, radius_mm: float
+) -> None:
+    """Two arcs, written as short straight lines, meet in a corner."""
+    turns = np.r_[
+        0, np.full(30, step_mm / radius_mm), math.radians(degrees), np.full(30, step_mm / radius_mm)
+    ]
+    courses = np.cumsum(turns)
+    places = np.cumsum(
+        np.vstack([[0, 0], step_mm * np.column_stack([np.cos(courses), np.sin(courses)])]), axis=0
+    )
+    curves = [line(tuple(a), tuple(b)) for a, b in itertools.pairwise(places)]
+    assert_sound(curves, lifted=False)
+    (corner,) = [corner for corner in join(curves, RADIUS_MM).corners if corner.bend_rad > 0.6]
+    assert corner.radius_mm >= 0.999 * RADIUS_MM
 
 
 def test_many_short_sides_are_a_curve_and_stay() -> None:

@@ -13,25 +13,30 @@ import numpy as np
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
 from wrapit.geometry.arclength import ArcLength, cut
 from wrapit.wires.fairing import faired
-from wrapit.wires.rounding import NO_BLEND, Blend, best_blend
+from wrapit.wires.rounding import (
+    FOLD_RAD,
+    SMOOTH_BEND_RAD,
+    Blend,
+    bend_rad,
+    best_blend,
+    corner_blend,
+    turning_rad,
+)
 
-# What is rounded, how far, and what isn't. On three of our drawings a third more or less of the first three
-# moves no wire; they bound what strange drawings may ask for.
-SMOOTH_BEND_RAD = 1e-4  # smaller bends are noise: turning the handles moves the curve by less than a micron
+# Bends from here on are rounded first. In the wires of 60 drawings 52 places are tighter than the metal
+# takes, and 5 tighter than a tenth of that; 56 and 9 if all bends share the room between them.
+BLUNT_RAD = math.radians(10)
+# How far that may reach. On three of our drawings a third more or less moves no wire; they bound what strange
+# drawings may ask for.
 RELAX_RADII = 4.0  # how far beyond a tight span a wire may leave the drawing to widen it
 MAX_TRIM = 0.45  # share of a segment that one corner may use up
 END_TRIM = 0.95  # and of one that has no other corner, as a hairpin follows
-FOLD_RAD = math.radians(175)  # a wire laid back over itself is folded, not rounded
-# The tightest hairpin that a tip becomes, in bends that the metal takes: half of that of soft wire is half of
-# its thickness, and tighter its sides would lie in each other.
-HAIRPIN_SHARE = 0.5
 # A side so short between two corners, or behind the last one, has no room for a bend (a blend is twice as
 # long): the two are one, and the line ends with the corner. Of 500 such wires, with sides of a hundredth of a
 # micrometre to two millimetres, one in four had no sound solid; with 0.05, 0.15 and 0.25 all have one.
 SLIVER_MM = 0.15
 # That is so where the sides around have room, in slivers. Many short sides in a row are a curve.
 _AROUND = 4.0
-TIP_RAD = math.radians(150)  # straight sides would be cut by 3.7 bends here, curved ones by far less
 
 
 @dataclass(frozen=True)
@@ -72,58 +77,81 @@ def join(
     asked_mm = [min_radius_mm] * (len(pieces) - 1)
     for end, radius in zip(ends, between_mm or (), strict=False):
         asked_mm[end - 1] = radius
+    drawn_mm = np.cumsum([0.0, *(piece.length for piece in pieces)])
+    bounds_mm = drawn_mm[[0, *ends]]
+    corners: list[Corner] = []
+    # Blunt bends are rounded in what sharp ones leave of the line: beside a tip they would take its room.
+    for least_rad in (BLUNT_RAD, SMOOTH_BEND_RAD):
+        pieces, asked_mm, places_mm, new = _rounded(pieces, asked_mm, held, least_rad)
+        bounds_mm = np.interp(bounds_mm, *places_mm)
+        corners = [
+            dataclasses.replace(corner, at_mm=float(np.interp(corner.at_mm, *places_mm)))
+            for corner in corners
+        ] + new
+    spans_mm = tuple(itertools.pairwise(bounds_mm.tolist()))
+    joined = Joined(_connected(pieces), spans_mm, tuple(sorted(corners, key=lambda corner: corner.at_mm)))
+    return _relaxed(joined, min_radius_mm)
+
+
+def _rounded(
+    pieces: Sequence[BezierChain], asked_mm: Sequence[float], held: tuple[bool, bool], least_rad: float
+) -> tuple[list[BezierChain], list[float], FloatArray, list[Corner]]:
+    """The pieces with bends from `least_rad` on rounded, each to the radius asked for at its joint.
+
+    Pieces that a bend ties become one. Told are the radii asked for at the joints that stay, and where places
+    along the pieces (first row) come to lie (second). A corner's side goes on where others only cross it.
+    """
     bends = [bend_rad(*pair) for pair in itertools.pairwise(pieces)]
-    sharp = _corners([piece.length for piece in pieces], bends)
-    # A corner's sides go on where others only cross them: beside a crossing a bend has room too.
-    sides = [_connected(pieces[a:b]) for a, b in itertools.pairwise([0, *sharp, len(pieces)])]
+    drawn_mm = np.cumsum([0.0, *(piece.length for piece in pieces)])
+    sharp = _corners(drawn_mm, bends, least_rad)
+    bounds = list(itertools.pairwise([0, *sharp, len(pieces)]))
+    sides = [_connected(pieces[a:b]) for a, b in bounds]
     room_mm = [MAX_TRIM * side.length for side in sides]
     for end, side in ((0, sides[0]), (-1, sides[-1])):
         if not held[end] and len(sides) > 1:
             room_mm[end] = END_TRIM * side.length
     blends = [
-        _blend(before, after, min(rooms), asked_mm[joint - 1])
+        corner_blend(before, after, min(rooms), asked_mm[joint - 1])
         for (before, after), rooms, joint in zip(
             itertools.pairwise(sides), itertools.pairwise(room_mm), sharp, strict=True
         )
     ]
-    # Places along the pieces as drawn, and where they come to lie: a corner in the middle of its bend.
-    drawn_mm = np.cumsum([0.0, *(piece.length for piece in pieces)])
-    places_mm = [(0.0, 0.0)]
-    chain: list[BezierChain] = []
-    corners: list[Corner] = []
+    groups: list[list[BezierChain]] = [[]]
+    left_mm: list[float] = []
+    places_mm, corners = [(0.0, 0.0)], []
     at_mm = head = 0.0
-    for side, joint, blend in itertools.zip_longest(sides, sharp, blends):
-        tail = blend.trim_mm if blend else 0.0
-        chain.append(_trimmed(side, head, tail))
-        at_mm += chain[-1].length
-        if blend is not None:
-            half = sum(curve.length for curve in blend.curves) / 2
-            corner_mm = float(drawn_mm[joint])
-            places_mm += [
-                (corner_mm - tail, at_mm),
-                (corner_mm, at_mm + half),
-                (corner_mm + tail, at_mm + 2 * half),
-            ]
-            if blend.curves:
-                chain += blend.curves
-                corners.append(Corner(at_mm + half, bends[joint - 1], blend.radius_mm, blend.deviation_mm))
-            at_mm += 2 * half
-            head = tail
+    for (first, last), blend in itertools.zip_longest(bounds, blends):
+        tail = blend.trim_mm if blend is not None else 0.0
+        for k in range(first, last):
+            start, end = drawn_mm[first] + head, drawn_mm[last] - tail
+            if drawn_mm[k + 1] < start + 1e-9 or drawn_mm[k] > end - 1e-9:
+                continue  # it is all within a bend
+            if groups[-1] and drawn_mm[k] > start:
+                groups.append([])
+                left_mm.append(asked_mm[k - 1])
+            groups[-1].append(
+                _trimmed(pieces[k], max(0.0, start - drawn_mm[k]), max(0.0, drawn_mm[k + 1] - end))
+            )
+            at_mm += groups[-1][-1].length
+        if blend is None:
+            break
+        half = sum(curve.length for curve in blend.curves) / 2
+        corner_mm = float(drawn_mm[last])
+        places_mm += [
+            (corner_mm - tail, at_mm),
+            (corner_mm, at_mm + half),
+            (corner_mm + tail, at_mm + 2 * half),
+        ]
+        at_mm += 2 * half
+        head = tail
+        if blend.curves:
+            groups[-1] += blend.curves
+            corners.append(Corner(at_mm - half, bends[last - 1], blend.radius_mm, blend.deviation_mm))
+        else:
+            groups.append([])
+            left_mm.append(asked_mm[last - 1])
     places_mm.append((float(drawn_mm[-1]), at_mm))
-    bounds_mm = np.interp(drawn_mm[[0, *ends]], *np.transpose(places_mm)).tolist()
-    spans_mm = tuple(itertools.pairwise(bounds_mm))
-    joined = Joined(_connected(chain), spans_mm, tuple(corners))
-    return _relaxed(joined, min_radius_mm)
-
-
-def bend_rad(before: BezierChain, after: BezierChain) -> float:
-    """Angle in [0, π] by which the direction changes where `after` follows `before`."""
-    return _turning(before.end_tangent, after.start_tangent)
-
-
-def _turning(arriving: FloatArray, leaving: FloatArray) -> float:
-    cross = arriving[0] * leaving[1] - arriving[1] * leaving[0]
-    return abs(math.atan2(float(cross), float(arriving @ leaving)))
+    return [_connected(group) for group in groups], left_mm, np.transpose(places_mm), corners
 
 
 def _split_at_kinks(curve: BezierChain) -> list[BezierChain]:
@@ -153,13 +181,12 @@ def _from_start(pieces: list[BezierChain]) -> list[BezierChain]:
     return [piece.reversed() for piece in _to_end([piece.reversed() for piece in pieces[::-1]])[::-1]]
 
 
-def _corners(lengths_mm: Sequence[float], bends: Sequence[float]) -> list[int]:
+def _corners(at_mm: FloatArray, bends: Sequence[float], least_rad: float) -> list[int]:
     """The joints that are corners, each by the piece after it; of two with a sliver between, the sharper."""
-    joints = [joint for joint, bend in enumerate(bends, 1) if bend >= SMOOTH_BEND_RAD]
-    ends_mm = [0.0, *itertools.accumulate(lengths_mm)]
+    joints = [joint for joint, bend in enumerate(bends, 1) if bend >= least_rad]
     while True:
-        bounds = [0, *joints, len(lengths_mm)]
-        sides_mm = [ends_mm[b] - ends_mm[a] for a, b in itertools.pairwise(bounds)]
+        bounds = [0, *joints, len(at_mm) - 1]
+        sides_mm = np.diff(at_mm[bounds])
         weaker = [
             min(bounds[i : i + 2], key=lambda joint: bends[joint - 1])
             for i in range(1, len(sides_mm) - 1)
@@ -183,31 +210,6 @@ def _aligned(curves: Sequence[BezierChain]) -> list[BezierChain]:
             points[index + 1, 1] = at + direction * np.linalg.norm(points[index + 1, 1] - at)
     firsts = itertools.accumulate((len(curve) for curve in curves), initial=0)
     return [BezierChain(points[a:b]) for a, b in itertools.pairwise(firsts)]
-
-
-def _blend(before: BezierChain, after: BezierChain, room_mm: float, min_radius_mm: float) -> Blend:
-    bend = bend_rad(before, after)
-    if bend < SMOOTH_BEND_RAD:
-        return NO_BLEND
-    if bend > FOLD_RAD:
-        return _hairpin(before, after, room_mm, min_radius_mm)
-    blend = best_blend(before, after, min_radius_mm * math.tan(bend / 2), room_mm, min_radius_mm)
-    if bend > TIP_RAD:
-        # Sides that curve away from each other have room for the bend long before straight ones would.
-        hairpin = _hairpin(before, after, room_mm, min_radius_mm)
-        enough = hairpin.radius_mm >= 0.999 * min(min_radius_mm, blend.radius_mm)
-        return hairpin if hairpin.curves and enough and hairpin.deviation_mm < blend.deviation_mm else blend
-    return blend
-
-
-def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius_mm: float) -> Blend:
-    """A tip whose sides part becomes a hairpin; where they don't, the wire stays laid back over itself."""
-    blend = best_blend(before, after, 0.0, room_mm, min_radius_mm)
-    least_mm = HAIRPIN_SHARE * min_radius_mm
-    if not blend.curves or blend.radius_mm < least_mm:
-        return NO_BLEND
-    apart_mm = float(np.linalg.norm(blend.curves[-1].end - blend.curves[0].start))
-    return blend if apart_mm >= 2 * least_mm else NO_BLEND
 
 
 def _relaxed(joined: Joined, min_radius_mm: float) -> Joined:
@@ -255,7 +257,7 @@ def _replaced(
 
     chain = [_trimmed(before, 0.0, blend.trim_mm), *blend.curves, _trimmed(after, blend.trim_mm, 0.0)]
     corners = [dataclasses.replace(corner, at_mm=moved(corner.at_mm)) for corner in joined.corners]
-    bend = _turning(chain[0].end_tangent, chain[-1].start_tangent)
+    bend = turning_rad(chain[0].end_tangent, chain[-1].start_tangent)
     corners.append(Corner(low + new_mm / 2, bend, blend.radius_mm, blend.deviation_mm))
     spans = tuple((moved(start), moved(end)) for start, end in joined.spans_mm)
     return Joined(_connected(chain), spans, tuple(sorted(corners, key=lambda corner: corner.at_mm)))

@@ -14,6 +14,13 @@ from wrapit.geometry.bezier import derivative, second_derivative
 from wrapit.geometry.outlines.loops import arc_cubics
 
 MIN_BLEND_MM = 0.3  # shorter blends make slivers in the jig
+# Smaller bends are noise: turning the handles moves the curve by less than a micron.
+SMOOTH_BEND_RAD = 1e-4
+FOLD_RAD = math.radians(175)  # a wire laid back over itself is folded, not rounded
+# The tightest hairpin that a tip becomes, in bends that the metal takes: half of that of soft wire is half of
+# its thickness, and tighter its sides would lie in each other.
+HAIRPIN_SHARE = 0.5
+TIP_RAD = math.radians(150)  # straight sides would be cut by 3.7 bends here, curved ones by far less
 # By how much each trial is wider than the one before. The finer, the less is cut off a corner: 1.14 brings
 # wires 0.07 mm nearer to our drawings, and takes more trials.
 GROWTH = 1.2
@@ -35,6 +42,43 @@ class Blend:
 
 # What a corner is that stays as drawn.
 NO_BLEND: Final = Blend((), 0.0, math.inf, 0.0)
+
+
+def bend_rad(before: BezierChain, after: BezierChain) -> float:
+    """Angle in [0, π] by which the direction changes where `after` follows `before`."""
+    return turning_rad(before.end_tangent, after.start_tangent)
+
+
+def turning_rad(arriving: FloatArray, leaving: FloatArray) -> float:
+    """Angle in [0, π] between two unit directions (2,)."""
+    cross = arriving[0] * leaving[1] - arriving[1] * leaving[0]
+    return abs(math.atan2(float(cross), float(arriving @ leaving)))
+
+
+def corner_blend(before: BezierChain, after: BezierChain, room_mm: float, min_radius_mm: float) -> Blend:
+    """The bend of the corner where `after` follows `before`, within `room_mm` of either: none at folds."""
+    bend = bend_rad(before, after)
+    if bend < SMOOTH_BEND_RAD:
+        return NO_BLEND
+    if bend > FOLD_RAD:
+        return _hairpin(before, after, room_mm, min_radius_mm)
+    blend = best_blend(before, after, min_radius_mm * math.tan(bend / 2), room_mm, min_radius_mm)
+    if bend > TIP_RAD:
+        # Sides that curve away from each other have room for the bend long before straight ones would.
+        hairpin = _hairpin(before, after, room_mm, min_radius_mm)
+        enough = hairpin.radius_mm >= 0.999 * min(min_radius_mm, blend.radius_mm)
+        return hairpin if hairpin.curves and enough and hairpin.deviation_mm < blend.deviation_mm else blend
+    return blend
+
+
+def _hairpin(before: BezierChain, after: BezierChain, room_mm: float, min_radius_mm: float) -> Blend:
+    """A tip whose sides part becomes a hairpin; where they don't, the wire stays laid back over itself."""
+    blend = best_blend(before, after, 0.0, room_mm, min_radius_mm)
+    least_mm = HAIRPIN_SHARE * min_radius_mm
+    if not blend.curves or blend.radius_mm < least_mm:
+        return NO_BLEND
+    apart_mm = float(np.linalg.norm(blend.curves[-1].end - blend.curves[0].start))
+    return blend if apart_mm >= 2 * least_mm else NO_BLEND
 
 
 def best_blend(

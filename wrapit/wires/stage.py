@@ -19,9 +19,10 @@ from wrapit.wires.bail import with_bail
 from wrapit.wires.beside.double_runs import double_runs
 from wrapit.wires.beside.pair_ties import with_pair_ties
 from wrapit.wires.beside.stage import APART, lay_beside
-from wrapit.wires.centreline import FOLD_RAD, Joined
+from wrapit.wires.centreline import Joined
 from wrapit.wires.model import Wire
 from wrapit.wires.palette import wire_colour
+from wrapit.wires.rounding import FOLD_RAD
 from wrapit.wires.stacking import lay_wires, layers_of
 from wrapit.wires.strung.threading import with_beads
 from wrapit.wires.ties import find_bindings

@@ -20,7 +20,8 @@ from wrapit.geometry.bezier import joined as as_one
 from wrapit.wires.beside.bulb import bulb, bulb_reach_mm
 from wrapit.wires.beside.sections import Item, laid_section
 from wrapit.wires.beside.sides import Stretch, find_stretches
-from wrapit.wires.centreline import END_TRIM, Joined, bend_rad, join
+from wrapit.wires.centreline import END_TRIM, Joined, join
+from wrapit.wires.rounding import bend_rad
 
 # Centrelines of two runs are so many diameters apart: a kernel sees two solids that don't touch, and a hand
 # no gap between them.
