@@ -53,7 +53,7 @@ def assert_sound(curves: list[BezierChain], lifted: bool) -> None:
 
 
 @settings(max_examples=12, deadline=None)
-@given(BENDS, EXPONENTS, st.booleans(), st.booleans())
+@given(BENDS, st.floats(-5, -0.01), st.booleans(), st.booleans())  # nearer than a bend's radius
 @example(57.0, -4.9, True, False)
 @example(115.0, -1.7, False, True)
 @example(140.0, -3.0, True, False)

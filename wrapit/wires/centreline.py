@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wrapit.geometry import BezierChain, FloatArray, from_chain, unit
-from wrapit.geometry.arclength import ArcLength, cut
+from wrapit.geometry.arclength import NEAR_MM, ArcLength, cut
 from wrapit.wires.fairing import faired
 from wrapit.wires.rounding import (
     FOLD_RAD,
@@ -99,32 +99,28 @@ def _rounded(
     """The pieces with bends from `least_rad` on rounded, each to the radius asked for at its joint.
 
     Pieces that a bend ties become one. Told are the radii asked for at the joints that stay, and where places
-    along the pieces (first row) come to lie (second). A corner's side goes on where others only cross it.
+    along the pieces (first row) come to lie (second).
     """
     bends = [bend_rad(*pair) for pair in itertools.pairwise(pieces)]
     drawn_mm = np.cumsum([0.0, *(piece.length for piece in pieces)])
     sharp = _corners(drawn_mm, bends, least_rad)
     bounds = list(itertools.pairwise([0, *sharp, len(pieces)]))
     sides = [_connected(pieces[a:b]) for a, b in bounds]
-    room_mm = [MAX_TRIM * side.length for side in sides]
-    for end, side in ((0, sides[0]), (-1, sides[-1])):
-        if not held[end] and len(sides) > 1:
-            room_mm[end] = END_TRIM * side.length
-    blends = [
-        corner_blend(before, after, min(rooms), asked_mm[joint - 1])
-        for (before, after), rooms, joint in zip(
-            itertools.pairwise(sides), itertools.pairwise(room_mm), sharp, strict=True
-        )
-    ]
+    blends = []
+    for i, joint in enumerate(sharp):
+        radius_mm = asked_mm[joint - 1]
+        before_mm = _room_mm(sides[i], pieces[joint - 1], radius_mm, alone=i == 0 and not held[0])
+        after_mm = _room_mm(sides[i + 1], pieces[joint], radius_mm, alone=i + 2 == len(sides) and not held[1])
+        blends.append(corner_blend(sides[i], sides[i + 1], min(before_mm, after_mm), radius_mm))
     groups: list[list[BezierChain]] = [[]]
     left_mm: list[float] = []
     places_mm, corners = [(0.0, 0.0)], []
     at_mm = head = 0.0
     for (first, last), blend in itertools.zip_longest(bounds, blends):
         tail = blend.trim_mm if blend is not None else 0.0
+        start, end = drawn_mm[first] + head, drawn_mm[last] - tail
         for k in range(first, last):
-            start, end = drawn_mm[first] + head, drawn_mm[last] - tail
-            if drawn_mm[k + 1] < start + 1e-9 or drawn_mm[k] > end - 1e-9:
+            if drawn_mm[k + 1] < start + NEAR_MM or drawn_mm[k] > end - NEAR_MM:
                 continue  # it is all within a bend
             if groups[-1] and drawn_mm[k] > start:
                 groups.append([])
@@ -152,6 +148,12 @@ def _rounded(
             left_mm.append(asked_mm[last - 1])
     places_mm.append((float(drawn_mm[-1]), at_mm))
     return [_connected(group) for group in groups], left_mm, np.transpose(places_mm), corners
+
+
+def _room_mm(side: BezierChain, piece: BezierChain, radius_mm: float, *, alone: bool) -> float:
+    """How much of a side a corner may use up: of the piece beside it, unless that is shorter than a bend."""
+    share = END_TRIM if alone else MAX_TRIM
+    return share * (side if piece.length < radius_mm else piece).length
 
 
 def _split_at_kinks(curve: BezierChain) -> list[BezierChain]:
