@@ -23,8 +23,8 @@ from wrapit.wires.rounding import (
     turning_rad,
 )
 
-# Bends from here on are rounded first. In the wires of 60 drawings 52 places are tighter than the metal
-# takes, and 5 tighter than a tenth of that; 56 and 9 if all bends share the room between them.
+# Bends from here on are rounded first. In the wires of 60 drawings 7 places are tighter than a tenth of what
+# the metal takes; 9 if all bends share the room between them.
 BLUNT_RAD = math.radians(10)
 # How far that may reach. On three of our drawings a third more or less moves no wire; they bound what strange
 # drawings may ask for.
