@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from math import comb
@@ -130,7 +131,10 @@ def _longest(whole: _Measured, first: int, tolerance_mm: float) -> tuple[BSpline
     grows = True
     while step:
         tried = min(count + step, len(whole.cubics) - first)
-        run = _fitted(whole.part(first, first + tried), tolerance_mm) if tried > count else None
+        run = None
+        if tried > count:  # what is longer wants no lower a degree
+            degrees = [degree for degree in DEGREES if degree >= best.degree]
+            run = _fitted(whole.part(first, first + tried), degrees, tolerance_mm)
         if run is not None:
             best, count = run, tried
             step = step * 2 if grows else step // 2
@@ -143,14 +147,14 @@ def _as_it_is(cubic: FloatArray) -> BSpline:
     return BSpline(3, cubic, np.repeat([0.0, max(float(steps(cubic).sum()), SLIVER_MM)], 4))
 
 
-def _fitted(part: _Measured, tolerance_mm: float) -> BSpline | None:
-    """One polynomial of the lowest degree that follows all the cubics, or None."""
+def _fitted(part: _Measured, degrees: Sequence[int], tolerance_mm: float) -> BSpline | None:
+    """One polynomial, of the first of the degrees that follows all the cubics, or None."""
     if float(part.turning.sum()) > MOST_TURNING_RAD:
         return None
     ends = np.concatenate([[0.0], np.cumsum(part.upto[:, -1])])
     length = float(ends[-1])
     everywhere = ((part.upto[:, 1:-1] + ends[:-1, None]) / length).ravel()
-    for degree in DEGREES:
+    for degree in degrees:
         poles = _least_squares(part, ends, degree, POLES_WEIGHT * tolerance_mm)
         if not _is_tame(part, poles, length):
             continue

@@ -22,6 +22,7 @@ from wrapit.pipeline.textfile import write_text
 from wrapit.pipeline.trying.offering import with_offers
 from wrapit.pipeline.trying.remedies import what_would_do
 from wrapit.pipeline.work import STAGES, AfterStage, Progress, Stage, Work
+from wrapit.pipeline.worker import seldom_collected
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,7 @@ class Build:
         return {**self.timings_s, "cached": list(self.cached)}
 
 
+@seldom_collected()
 def build(
     config_path: Path | Sequence[Path],
     target: Path | None = None,
@@ -88,6 +90,7 @@ def build(
     return _built(work, target, sources, until)
 
 
+@seldom_collected()
 def check(
     config_path: Path | Sequence[Path],
     overrides: Sequence[str] = (),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import importlib
 import multiprocessing
 import os
@@ -12,7 +13,7 @@ import threading
 import time
 import traceback
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
@@ -21,6 +22,11 @@ from typing import Any, Self
 
 from wrapit.errors import KernelError, WrapItError
 from wrapit.pipeline.output.guards import let_through, signals_held
+
+# After how many new objects Python looks for rings of them that nobody knows, and after how many such looks
+# among older ones. What a build makes has few rings and lives to its end: at Python's own 700, 10 and 10 the
+# looking takes 5 % of a build; at this it takes as little as without any, and memory is the same within 1 %.
+COLLECTING = (50_000, 50, 50)
 
 
 @dataclass
@@ -198,6 +204,7 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent is told, and stops this process
     let_through()  # they were held at the start
     nothing_on_stdout()  # the kernel's writers chat there
+    gc.set_threshold(*COLLECTING)
     for module in preload:
         importlib.import_module(module)
     while True:
@@ -216,6 +223,17 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             connection.send((*answer, time.monotonic() - began_s))
         except BrokenPipeError:
             return  # the parent is gone
+
+
+@contextlib.contextmanager
+def seldom_collected() -> Iterator[None]:
+    """Has Python look for rings of unknown objects as `COLLECTING` says, then as before."""
+    before = gc.get_threshold()
+    gc.set_threshold(*COLLECTING)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
 
 
 def nothing_on_stdout() -> None:

@@ -103,25 +103,28 @@ class Outliner:
         feet, tangents, _ = self.curves.frame(near.curve[on], near.at[on])
         away = points[on] - feet
         across = tangents[:, 0] * away[:, 1] - tangents[:, 1] * away[:, 0]
-        distance = np.array(self.distances_mm)[which[on]]
+        which = which[on]
+        distance = np.array(self.distances_mm)[which]
         oblique = np.abs((tangents * away).sum(axis=1)) > SIDEWAYS * distance
+        number = np.empty(len(away), dtype=np.int64)
+        # Points beside one curve, on one of its sides and at one distance are on one parallel.
+        curve, level = near.curve[on], np.where(np.signbit(across), -1, 1) * (which + 1)
+        beside = np.flatnonzero(~oblique)
+        name = curve * (2 * len(self.distances_mm) + 1) + level
+        _, first, number[beside] = np.unique(name[beside], return_index=True, return_inverse=True)
+        sides = [(int(curve[at]), math.copysign(distance[at], level[at])) for at in beside[first].tolist()]
+        parallels: dict[int, Parallel] = {
+            n: Side(self.curves, self.edges[index], index, mm) for n, (index, mm) in enumerate(sides)
+        }
         centres = _Points()
-        known: dict[tuple[str, int, float], int] = {}
-        told = (feet, oblique, near.curve[on], np.copysign(distance, across), distance)
-        key[on] = [
-            known.setdefault(
-                ("round", centres.index(foot), mm) if slant else ("side", curve, side_mm), len(known)
-            )
-            for foot, slant, curve, side_mm, mm in zip(*(each.tolist() for each in told), strict=True)
-        ]
+        rounds: dict[tuple[int, float], int] = {}
+        for at in np.flatnonzero(oblique).tolist():
+            round_end = (centres.index(feet[at].tolist()), float(distance[at]))
+            number[at] = rounds.setdefault(round_end, len(sides) + len(rounds))
+        parallels |= {n: Round(centres.points[centre], mm) for (centre, mm), n in rounds.items()}
+        key[on] = number
         place[on] = np.where(oblique, np.arctan2(away[:, 1], away[:, 0]), near.at[on])
-        parallels = {number: self._parallel(*name, centres.points) for name, number in known.items()}
         return _grouped(points, key, place, parallels)
-
-    def _parallel(self, kind: str, index: int, mm: float, centres: list[tuple[float, float]]) -> Parallel:
-        if kind == "round":
-            return Round(centres[index], mm)
-        return Side(self.curves, self.edges[index], index, mm)
 
     def _whole(self, run: Run) -> list[Edge]:
         """A ring that is one run: a full circle, a closed parallel without seam in sight, or free."""

@@ -110,4 +110,13 @@ def beside(points: FloatArray, normals: FloatArray, side: float, near_mm: float,
 
     near, far = points + side * near_mm * normals, points + side * far_mm * normals
     corners = np.stack([near[:-1], near[1:], far[1:], far[:-1]], axis=1)
+    edges = np.roll(corners, -1, axis=1) - corners
+    following = np.roll(edges, -1, axis=1)
+    bends = edges[..., 0] * following[..., 1] - edges[..., 1] * following[..., 0]
+    # Strips that all go round one way fold nowhere, and a rim that is simple shuts in each place once: then
+    # the band is what the rim encloses.
+    if (bends < 0).all() or (bends > 0).all():
+        band = shapely.polygons(np.concatenate([near, far[::-1]]))
+        if band.is_valid:
+            return band
     return shapely.union_all(shapely.convex_hull(shapely.multipoints(corners)))
