@@ -9,6 +9,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -35,6 +36,7 @@ def test_the_lock_holds_every_dependency() -> None:
     assert names - locked == set()
 
 
+@pytest.mark.usefixtures("recalling")
 def test_examples_run(tmp_path: Path) -> None:
     examples = sorted((ROOT / "examples").glob("*.py"))
     assert examples

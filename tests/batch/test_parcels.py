@@ -18,6 +18,8 @@ from wrapit.batch.parcels import arrived, build_parcel, packed, put_here
 from wrapit.errors import ConfigError, DrawingError, ExportError
 from wrapit.pipeline.build import build
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 
 def piece_with(folder: Path, drawing: str, name: str = "moth") -> Piece:
     """A config whose drawing lies there, seen from the config."""

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageDraw
 
-from tests.test_makefile import Project
+from tests.make_project import Project
 from wrapit.config import load_config
 
 ROOT = Path(__file__).parents[2]

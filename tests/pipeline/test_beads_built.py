@@ -17,6 +17,8 @@ from wrapit.face import build_jigs, decompose, draw_wires, make_fit, trace
 from wrapit.jig.openings.bead_room import bead_obstacles
 from wrapit.pipeline.build import Build, build
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">{}</svg>'
 STROKE = '<path d="{}" fill="none" stroke="black" stroke-width="1"/>'
 # A line that waves, with a ring of 5 mm in its middle, and one of 4 mm at its end.

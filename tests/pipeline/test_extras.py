@@ -11,6 +11,8 @@ import pytest
 from wrapit.errors import JigError
 from wrapit.pipeline.build import build
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 RING = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">{}</svg>'
 STROKE = '<path d="{}" fill="none" stroke="black" stroke-width="1"/>'
 CIRCLE = "M 35 20 A 15 15 0 0 1 5 20 A 15 15 0 0 1 35 20"

@@ -12,6 +12,8 @@ from wrapit.instructions.order.wire_steps import BY_HAND
 from wrapit.instructions.words.quantities import half_millimetres
 from wrapit.pipeline.build import Build, build
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 ROOT = Path(__file__).parents[2]
 # In several jigs, in one of sheet, a pair, and in German.
 PIECES = {

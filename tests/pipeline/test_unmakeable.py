@@ -18,6 +18,8 @@ from wrapit.pipeline.report import findings_list
 from wrapit.pipeline.summary import LEVELS, finding_lines
 from wrapit.pipeline.trying.remedies import smallest_size
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">{}</svg>'
 STROKE = '<path d="{}" fill="none" stroke="black"/>'
 ZIGZAG = "M 5 20 C 8 5 10 5 12 20 S 16 35 18 20 S 22 5 24 20 S 28 35 30 20 S 34 5 36 20"

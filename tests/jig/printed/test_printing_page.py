@@ -17,6 +17,8 @@ from wrapit.jig.printed.stage import build_jig
 from wrapit.pages.model import Duration, Facts, Figure, Mass, Shape
 from wrapit.pipeline.build import build
 
+pytestmark = pytest.mark.usefixtures("kernel_here")
+
 
 def test_each_wire_has_its_number_on_the_hole_where_it_starts() -> None:
     # Two hooks that start in one hole, and a line that crosses both.

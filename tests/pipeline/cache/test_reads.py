@@ -6,12 +6,13 @@ import typing
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import pytest
 
 from tests.conftest import CONFIGS
 from tests.pipeline.folders import PIECE, written_piece
+from tests.pipeline.kernel_here import KernelHere
 from wrapit.config import Config
 from wrapit.config.block import Block
 from wrapit.jig.kinds import JIGS
@@ -51,29 +52,16 @@ def _blocks(annotation: Any) -> Iterator[type[Block]]:
 SPELT = dict(_keys(Config))
 
 
-class Here:
-    """A worker that works at once, in this process."""
+class Here(KernelHere):
+    """What it does belongs to the step that asked for it, and that is done then."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
-
     def start(self, where: str, limit_s: float, function: Callable[..., Any], *arguments: Any) -> Job:
-        answer = True, function(*arguments)
+        job = super().start(where, limit_s, function, *arguments)
         self._recorder.step = ""
-        return Job(where, limit_s, 0.0, answer)
-
-    def is_free(self) -> bool:
-        return False  # all that is shared is made at once
-
-    def result(self, job: Job) -> Any:
-        assert job.answer is not None
-        return job.answer[1]
+        return job
 
 
 class Recorder:
