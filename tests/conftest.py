@@ -61,11 +61,7 @@ def piece(shared_cache: Path, tmp_path_factory: pytest.TempPathFactory) -> Calla
 
 @pytest.fixture(scope="module")
 def kernel_here() -> Iterator[None]:
-    """For whole builds that aren't about the kernel's process: 2 s less each, and the same files.
-
-    Several jigs in one STEP file are apart by a blank: where the writer breaks lines hangs on how many
-    assemblies this process wrote before.
-    """
+    """For whole builds that aren't about the kernel's process: 2 s less each, and the same files."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(stages, "Worker", KernelHere)
         yield

@@ -53,6 +53,16 @@ def test_any_order_and_any_numbers_give_the_same_text(
     assert written(order, numbers) == written(plain, [n + 1 for n in plain])
 
 
+@given(st.lists(st.sampled_from(["", " ", "\n", " \n  "]), min_size=14, max_size=14))
+def test_any_line_breaks_give_the_same_text(blanks: list[str]) -> None:
+    """The kernel's writer breaks lines by the width of its numbers, which grow from file to file."""
+    signs = ["A(", "'a , ( b'", ",", "$", ",", "(", "1.", ",", "2.", ")", ",", "(", "#2", ")"]
+    body = "".join(sign + blank for sign, blank in zip(signs, blanks, strict=True))
+    text = canonical_step(HEAD + f"#1={body});\n#2=( B(*) C($) );\n" + TAIL, "a")
+    assert "=A('a , ( b',$,(1.,2.),(#1));" in text
+    assert "=(B(*)C($));" in text
+
+
 @pytest.mark.parametrize(
     "uses",
     [

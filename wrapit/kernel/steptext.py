@@ -13,12 +13,13 @@ import re
 
 # Same model, same bytes: the time of writing is none of them.
 FIXED_TIME = "2000-01-01T00:00:00"
-# How STEP spells what is renumbered or renamed (ISO 10303-21): entities, references, texts, the counter in
-# the usage of a part, letters that need a code, our own way to carry these through the kernel, and the
-# header's name.
+# How STEP spells what is renumbered or renamed (ISO 10303-21): entities, references, texts, the signs beside
+# which blanks say nothing, the counter in the usage of a part, letters that need a code, our own way to carry
+# these through the kernel, and the header's name.
 _ENTITY = re.compile(r"#(\d+)\s*=\s*(.*?);\s*(?=#\d+\s*=|ENDSEC)", re.DOTALL)
 _REFERENCE = re.compile(r"#(\d+)")
 _STRING = re.compile(r"('(?:[^']|'')*')")
+_SPACED = re.compile(r"\s*([(),])\s*")
 _USAGE = re.compile(r"^(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
 _OUTSIDE_ASCII = re.compile(r"[^\x00-\x7f]+")
 _CARRIED = re.compile(r"~X([24])~([0-9A-F]+)~X0~")
@@ -64,7 +65,7 @@ def canonical_step(text: str, file_name: str) -> str:
     """The same model, written so that equal models have equal bytes; carried names as STEP has them."""
     header, data = text.split("DATA;", 1)
     header = _FILE_NAME.sub(lambda _: _file_name(file_name), header)
-    entities = {int(m[1]): _USAGE.sub(r"\1''", " ".join(m[2].split())) for m in _ENTITY.finditer(data)}
+    entities = {int(m[1]): _USAGE.sub(r"\1''", _in_one_line(m[2])) for m in _ENTITY.finditer(data)}
     uses = {number: _references(body) for number, body in entities.items()}
     digests = _digests(entities, uses)
     used = {reference for references in uses.values() for reference in references}
@@ -88,6 +89,15 @@ def canonical_step(text: str, file_name: str) -> str:
 def _file_name(file_name: str) -> str:
     name = _with_codes(carried(file_name.replace("'", "''")))
     return f"FILE_NAME('{name}','{FIXED_TIME}',(''),(''),'wrapit','wrapit','');"
+
+
+def _in_one_line(body: str) -> str:
+    """The writer breaks lines by their width, before renumbering, and where it does it leaves blanks."""
+    body = " ".join(body.split())
+    if "'" not in body:
+        return _SPACED.sub(r"\1", body)
+    parts = _STRING.split(body)
+    return "".join(part if index % 2 else _SPACED.sub(r"\1", part) for index, part in enumerate(parts))
 
 
 def _references(body: str) -> list[int]:

@@ -22,7 +22,6 @@ from wrapit.pipeline.cache.store import Store
 from wrapit.pipeline.output.ownership import REPORT
 from wrapit.pipeline.summary import timing_lines
 from wrapit.pipeline.work import STAGES, Work
-from wrapit.pipeline.worker import Worker
 
 pytestmark = pytest.mark.usefixtures("kernel_here")
 
@@ -160,7 +159,6 @@ def test_pieces_are_the_same_with_and_without(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     settings = ("pair=true", "jigs=[printed, sheet]", "bail={at: top}", "jig.springback=compensate")
-    monkeypatch.setattr(stages, "Worker", Worker)  # as people build
     for folder in ("first", "second"):
         build(CONFIGS / f"{name}.yaml", tmp_path / folder, settings, alternatives=2)
     monkeypatch.setenv("WRAPIT_CACHE", "off")
