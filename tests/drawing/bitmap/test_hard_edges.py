@@ -119,6 +119,20 @@ def test_hard_edged_joints_and_bends_lie_on_the_true_lines(tmp_path, seed):
     assert np.mean(sides) < 0.32
 
 
+@few
+@given(st.integers(0, 10_000))
+def test_gentle_corners_on_hard_edges_keep_their_apexes(tmp_path, seed):
+    off = []
+    for part in range(8):
+        rng = np.random.default_rng([seed, part])
+        turn, width = rng.uniform(0, 2 * np.pi), rng.uniform(8, 14)
+        half = np.radians(rng.uniform(36, 52) / 2)
+        sides = [[-150 * np.cos(half), 150 * np.sin(half)], [0, 0], [150 * np.cos(half), 150 * np.sin(half)]]
+        line = turned(CENTRE + np.array(sides), turn, rng.uniform(-6, 6, 2))
+        off.append(off_the_lines_px(hard_edged([line], width, tmp_path / "gentle.png"), [line]).max())
+    assert np.mean(off) < 0.8
+
+
 @pytest.mark.skipif(not (CORPUS / "evaluate.py").exists(), reason="the corpus is not here; set WRAPIT_CORPUS")
 @pytest.mark.parametrize("kind", ["plain", "x1.5", "x2.5"])
 @pytest.mark.parametrize("name", ["lucide_anchor", "lucide_ship_wheel", "openmoji_mushroom", "tabler_atom"])

@@ -23,6 +23,9 @@ _SNAP_RAD = math.radians(20)
 # two curves fix the point already, even at an acute angle.
 _PAIR_WEIGHT, _SINGLE_WEIGHT = 1.0, 0.3
 _PRIOR_OF_ONE, _PRIOR_OF_TWO = 0.01, 1e-4
+# And about a place that is known? From 1.4 to 3 the same 25 of 28 hard-edged pictures are near their smooth
+# twins or the truth; with 1 a whale's corner stays off by 1.9 px, with 4.5 a heart's moves by 0.9.
+_PRIOR_OF_KNOWN = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +38,12 @@ class Ending:
 
 
 def place(
-    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]], ink: Ink
+    arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]], ink: Ink, *, known: bool = False
 ) -> tuple[FloatArray, list[Ending]]:
     """The point where the arms meet, and how each leaves it; `pairs` of arms continue each other.
 
     The point minimises the weighted squared distance to one curve through each pair of arms (weight 1),
-    to the extrapolated single arms (0.3), and weakly to `around`.
+    to the extrapolated single arms (0.3), and weakly to `around`; strongly where that is `known`.
     """
     merge = find_merge(arms, ink) if len(arms) == 3 else None
     if merge is not None:
@@ -50,7 +53,7 @@ def place(
     point: FloatArray = around
     feet = [0.0] * len(curves)
     # Two curves fix the point, even where they cross at an acute angle.
-    prior = _PRIOR_OF_ONE if len(curves) < 2 else _PRIOR_OF_TWO
+    prior = _PRIOR_OF_KNOWN if known else _PRIOR_OF_ONE if len(curves) < 2 else _PRIOR_OF_TWO
     for _ in range(3):
         pulls = []
         for k, curve in enumerate(curves):

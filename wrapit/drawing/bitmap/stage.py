@@ -142,7 +142,8 @@ def _traced(
     # Steadying bends the ends of lines: what strokes point at is told by what was measured.
     measured = lines if needs_longer_look(ink, width_px) else steady
     endings = ended(graph, measured, rings, ink, width_px)
-    pieces = _fitted(graph, steady, endings, width_px, _tolerance(picture, tracing))
+    tolerance = _tolerance(picture, tracing)
+    pieces = _fitted(graph, steady, endings, width_px, tolerance, ink.stair_px > 0)
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
@@ -226,12 +227,13 @@ def _fitted(
     endings: dict[tuple[int, int], Ending],
     width_px: float,
     tolerance: float,
+    hard: bool,
 ) -> list[Piece]:
     for node in graph.nodes:
         if graph.is_seam(node):
             _seam(graph, lines, node, endings, width_px)
     strokes = [
-        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1])
+        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1], hard)
         for strand in graph.strands
     ]
     chains = fit_all(strokes, tolerance * width_px, reach=width_px)
@@ -257,14 +259,19 @@ def _seam(
     endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
 
 
-def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
+def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending, hard: bool) -> Stroke:
     s = graph.strands[strand]
     stop = len(line.points) - last.cut
     inner = slice(first.cut, stop)
     keep = line.clean[inner] if stop > first.cut and line.clean[inner].mean() > 0.6 else slice(None)
     middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
     # A point every quarter of the width tells a curve as well as one every eighth.
-    middle = middle[:: 2 if len(middle) > 32 else 1]
+    if len(middle) > 32:
+        told = np.arange(len(middle)) % 2 == 0
+        if hard:
+            # A gentle corner's own points have no width; without its apex a curve cuts it by up to 2 px.
+            told |= np.isnan(line.width[inner][keep])
+        middle = middle[told]
     points = np.vstack(
         [graph.nodes[s.start][None], first.lead, middle, last.lead[::-1], graph.nodes[s.end][None]]
     )

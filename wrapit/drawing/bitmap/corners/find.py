@@ -59,7 +59,8 @@ class Corner:
     """A corner or tight bend: the points before index `before` and from `after` on are its sides.
 
     `points` (n, 2) lie between them: the apex alone where it is `sharp`, else an arc. Where corners stand
-    close together a `side` leads to it, and a `last_side` away from it, instead of the line's own points.
+    close together a `side` leads to it, and a `last_side` away from it, instead of the line's own points; it
+    is `chained` where a chain of sides that explains the ink gave its place.
     """
 
     points: FloatArray
@@ -69,6 +70,7 @@ class Corner:
     sharp: bool
     side: Line | None = None
     last_side: Line | None = None
+    chained: bool = False
 
 
 def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -> list[Corner]:
@@ -116,7 +118,7 @@ def _of_curves(ink: Ink, chain: CurvedChain) -> list[Corner]:
             return []
         before = chain.last if k else chain.first
         last = chain.side(k + 1) if k == len(curves.corners) - 3 else None
-        found.append(Corner(apex[None], before, chain.last, turned, sharp, chain.side(k), last))
+        found.append(Corner(apex[None], before, chain.last, turned, sharp, chain.side(k), last, True))
     return found if any(corner.turn_rad > SEEN_RAD for corner in found) else []
 
 
@@ -161,7 +163,7 @@ def _crowded(line: Line, ink: Ink, start: int, end: int, known: list[Corner]) ->
             else _arc(apex, arriving, leaving, turned, radius * chain.width_px)
         )
         before, side = (chain.last, chain.side(k)) if k else (chain.first, None)
-        found.append(Corner(points, before, chain.last, turned, sharp, side))
+        found.append(Corner(points, before, chain.last, turned, sharp, side, chained=True))
     return found if any(corner.sharp for corner in found) else []
 
 

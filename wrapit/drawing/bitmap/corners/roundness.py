@@ -26,6 +26,10 @@ _STEP = 0.02
 # With 1 instead of 2, 49 instead of 40 of the 606 round and mitred corners are lost, with 3 it is 33, but 25
 # instead of 21 of the 683 arcs of 0.4 and more.
 _CLEARLY = 2.0
+# And on hard edges? Neither way is told to miss by less than an edge is uncertain by, in stairs: those of a
+# thin stroke's mitre look like an arc. From 0.17 to 0.33 the corners of 28 pictures are the same; without
+# it a bee's corner of 47 degrees reads as a bend of 0.7, with 0.45 a poodle's bend as a corner.
+_NOISE = 0.25
 # Where does the walk to the edge begin? So far outside of the tip of a mitre; a stroke nearer than that hides
 # it. A fifth of the edge may be hidden without harm: it is the same on both sides of the apex.
 _OUTSIDE = 0.3
@@ -55,7 +59,8 @@ def bend_radius(
     bevel = np.minimum(mitre, 0.5 * math.cos(half_turn))
     sharp = min(_misfits(np.stack([mitre, bevel]), heights).min(), arcs[0])
     best = int(np.argmin(arcs))
-    return float(radii[best]) if sharp > _CLEARLY * arcs[best] else 0.0
+    noise = (_NOISE * ink.stair_px / width_px) ** 2
+    return float(radii[best]) if sharp + noise > _CLEARLY * (arcs[best] + noise) else 0.0
 
 
 def _arcs(aside: FloatArray, radii: FloatArray, half_turn: float) -> FloatArray:

@@ -40,6 +40,7 @@ def _split(
 ) -> None:
     s, line = graph.strands[strand], lines[strand]
     parts: list[tuple[list[slice | FloatArray | Line], FloatArray]] = []
+    chained: list[bool] = []
     stretch: list[slice | FloatArray | Line] = []
     start = 0
     for corner in corners:
@@ -49,6 +50,7 @@ def _split(
         start = corner.after
         if corner.sharp and corner.turn_rad >= corner_rad:
             parts.append((stretch, corner.points[0]))
+            chained.append(corner.chained)
             stretch = []
         else:
             stretch.append(corner.points)
@@ -57,6 +59,7 @@ def _split(
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
     graph.corners |= set(nodes[1:-1])
+    graph.chained |= {node for node, known in zip(nodes[1:-1], chained, strict=True) if known}
     pieces = [_joined(line, items) for items in [*(items for items, _ in parts), stretch]]
     if graph.is_seam(s.start) and len(pieces) > 1:
         # A closed loop with corners needs its seam no longer.

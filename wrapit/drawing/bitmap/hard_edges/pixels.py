@@ -28,6 +28,8 @@ _BLUR = 1.5
 # Where are stairs so high that a side is no longer than a few of them, in stroke widths? In strokes of five
 # stairs and less: without this limit a heart 100 px wide loses its graph. And where are they uneven, in
 # pixels? Enlarged one and a half times, a wheel measured farther turns 1.26 times as much, and 1.2 without.
+# With 1.65 instead of 1.25, 26 instead of 27 of 28 hard-edged pictures are good, with 0.85, which leaves none
+# looked at for longer, 17.
 _HIGHEST_OF_WIDTH = 0.2
 _EVEN = 1.25
 # How near to halfway may the blur bring a pixel, in grey levels? Ink stays ink, whatever surrounds it.
