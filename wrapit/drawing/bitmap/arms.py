@@ -21,10 +21,6 @@ _ARM = 3.0
 # And on hard edges, where each point tells less? Of 26 thresholded drawings 11 are near their smooth twins;
 # 9 with 3, and 9 with 5, which turns one of them 1.4 times as much.
 _HARD_ARM = 4.0
-# Where do stairs not explain what that misses? There the stroke bends more and more, and an arm looks no
-# farther than on grey edges: a bee's joint is off by 0.7 px instead of 1.25. From 0.012 to 0.022 the same of
-# 28 pictures are good and near, with 0.009 one fewer is near. What misses by more than `_BENT` looks nearer.
-_NO_STAIRS = 0.015
 # When does it look farther? Where it misses the points by more than 0.006 widths (the noise of a scan), it
 # tries these reaches, as long as it misses no more than 1.1 times as much (and a thousandth of a width).
 # Varied by 30 %, each moves the mean distance of the curves by less than 0.0002 widths.
@@ -86,9 +82,6 @@ class Arm:
     def _fit(self) -> tuple[FloatArray, float]:
         usual = _HARD_ARM if self.hard else _ARM
         best, rms = self._fitted(usual)
-        if self.hard and _NO_STAIRS * self.width_px < rms <= _BENT * self.width_px:
-            usual = _ARM
-            best, rms = self._fitted(usual)
         for share in _NEARER if rms > _BENT * self.width_px else ():
             nearer, missed = self._fitted(share)
             if missed > _LESS * rms:
