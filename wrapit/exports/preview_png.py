@@ -63,7 +63,7 @@ def write_preview(
         (view.size_px[0] // SUPERSAMPLING, view.size_px[1] // SUPERSAMPLING), Image.Resampling.BOX
     )
     try:
-        small.save(path, format="PNG", compress_level=9)
+        small.save(path, format="PNG")
     except OSError as error:
         raise ExportError(
             f"the picture can't be written ({error.strerror})", str(path), "check folder and disk"

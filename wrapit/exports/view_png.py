@@ -54,7 +54,7 @@ def write_view(path: Path, view: View) -> None:
     image = Image.fromarray(picture.pixels)
     small = image.resize((image.width // SUPERSAMPLING, image.height // SUPERSAMPLING), Image.Resampling.BOX)
     try:
-        small.save(path, format="PNG", compress_level=9)
+        small.save(path, format="PNG")
     except OSError as error:
         raise ExportError(
             f"the picture can't be written ({error.strerror})", str(path), "check the disk"

@@ -7,6 +7,8 @@ import gc
 import importlib
 import multiprocessing
 import os
+import pickle
+import queue
 import signal
 import sys
 import threading
@@ -205,15 +207,15 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
     let_through()  # they were held at the start
     nothing_on_stdout()  # the kernel's writers chat there
     gc.set_threshold(*COLLECTING)
+    orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    # Who sends an order that is larger than a pipe would wait until all is loaded.
+    threading.Thread(target=_take_in, args=(connection, orders), daemon=True).start()
     for module in preload:
         importlib.import_module(module)
-    while True:
-        try:
-            function, arguments = connection.recv()
-        except EOFError:
-            return
+    while order := orders.get():
         began_s = time.monotonic()
         try:
+            function, arguments = pickle.loads(order)
             answer: tuple[bool, Any] = (True, function(*arguments))
         except (WrapItError, OSError, MemoryError) as error:
             answer = (False, error)
@@ -223,6 +225,14 @@ def _serve(connection: Connection, preload: Sequence[str]) -> None:
             connection.send((*answer, time.monotonic() - began_s))
         except BrokenPipeError:
             return  # the parent is gone
+
+
+def _take_in(connection: Connection, orders: queue.SimpleQueue[bytes]) -> None:
+    """Puts pickled orders by until their turn comes; an empty one at the end."""
+    with contextlib.suppress(EOFError, OSError):  # the parent is gone
+        while True:
+            orders.put(connection.recv_bytes())
+    orders.put(b"")
 
 
 @contextlib.contextmanager

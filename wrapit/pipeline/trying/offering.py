@@ -11,7 +11,7 @@ from typing import Final
 from wrapit.config import Config
 from wrapit.errors import Finding, WrapItError
 from wrapit.pipeline.cache.remembering import Outcome
-from wrapit.pipeline.trying.tried import FitLevel, bolder, is_tight, tried, with_fit
+from wrapit.pipeline.trying.tried import FitLevel, Traced, bolder, is_tight, tried, with_fit
 from wrapit.pipeline.work import Work
 
 # What a drawing of wider bends and fewer lines mends.
@@ -53,7 +53,8 @@ def with_offers(work: Work) -> list[Finding]:
             return Outcome(
                 blocks={"said": f"try fit: {bolder(work.config)[-1]}, with so many lines it takes long"}
             )
-        return Outcome(blocks={"said": offer(work.config, work.drawing_path, made)})
+        traced = Traced(work.outcomes["trace"].value, work.config.reading)
+        return Outcome(blocks={"said": offer(work.config, work.drawing_path, made, traced)})
 
     said = work.remember(key, offered, None).blocks["said"]
     if not said:
@@ -71,7 +72,7 @@ def _is_too_large(work: Work) -> bool:
     return len(work.outcomes["trace"].value.segments) > _MOST_SEGMENTS
 
 
-def offer(config: Config, path: Path, before: Counts) -> str:
+def offer(config: Config, path: Path, before: Counts, traced: Traced | None = None) -> str:
     """What the gentlest `fit` does that leaves no bend too tight, or else the one that leaves the fewest.
 
     `before` is what the config makes. Empty where none leaves fewer bends, nor as many with fewer wires.
@@ -82,7 +83,7 @@ def offer(config: Config, path: Path, before: Counts) -> str:
     """
     best: tuple[FitLevel, Counts] | None = None
     for level in bolder(config):
-        made = counted(with_fit(config, level), path)
+        made = counted(with_fit(config, level), path, traced)
         if made is not None and _gain(made) < _gain(best[1] if best is not None else before):
             best = level, made
         if best is not None and best[1].tight_bends == 0:
@@ -106,10 +107,10 @@ def _asking(findings: Sequence[Finding]) -> set[Finding]:
     return tight | crowded if len(crowded) >= _SEVERAL else tight
 
 
-def counted(config: Config, path: Path) -> Counts | None:
+def counted(config: Config, path: Path, traced: Traced | None = None) -> Counts | None:
     """What counts of a piece, tried; None where it can't be made: that is no remedy."""
     try:
-        found = tried(config, path)
+        found = tried(config, path, traced)
     except WrapItError:
         return None
     left_out = found.fitted.costs.left_out if found.fitted is not None else 0.0

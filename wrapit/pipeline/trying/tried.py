@@ -23,6 +23,21 @@ LEVELS: Final[tuple[FitLevel, ...]] = ("gentle", "bold")
 
 
 @dataclass(frozen=True, eq=False)
+class Traced:
+    """A drawing, and how it was read."""
+
+    drawing: Drawing
+    reading: TracingConfig
+
+    def serves(self, reading: TracingConfig) -> bool:
+        """Whether another reading gives this drawing: in one piece it is the same, joined or not."""
+        if self.reading == reading:
+            return True
+        whole = self.reading.components == "largest" and all(r.what != "piece" for r in self.drawing.removed)
+        return whole and self.reading.model_copy(update={"components": reading.components}) == reading
+
+
+@dataclass(frozen=True, eq=False)
 class Tried:
     """What the stages made; `fitted` is None where that stage isn't taken."""
 
@@ -43,12 +58,15 @@ def is_tight(finding: Finding) -> bool:
     return finding.code == "tight-bend" and finding.level != "note"
 
 
-def read(config: Config, path: Path) -> tuple[Drawing, Fitted | None]:
+def read(config: Config, path: Path, known: Traced | None = None) -> tuple[Drawing, Fitted | None]:
     """The drawing that a build divides into wires: traced, and made fit where the config asks for it.
 
-    Raises the WrapItError of the stage that fails.
+    What is `known` of the file isn't traced again. Raises the WrapItError of the stage that fails.
     """
-    drawing = _traced(path, _saved(path), config.reading.model_dump_json(), config.size)
+    if known is not None and known.serves(config.reading):
+        drawing = known.drawing
+    else:
+        drawing = _traced(path, _saved(path), config.reading.model_dump_json(), config.size)
     if not takes_fit(config):
         return drawing, None
     from wrapit.fit.stage import make_fit
@@ -73,13 +91,13 @@ def _saved(path: Path) -> tuple[int, ...]:
     return ()
 
 
-def tried(config: Config, path: Path) -> Tried:
+def tried(config: Config, path: Path, known: Traced | None = None) -> Tried:
     """The wires that a build would make. Raises the WrapItError of the stage that fails."""
     from wrapit.decomposition.stage import decompose
     from wrapit.wires.beside.side_by_side import room_of
     from wrapit.wires.stage import draw_wires
 
-    drawing, fitted = read(config, path)
+    drawing, fitted = read(config, path, known)
     beads = fitted.beads if fitted is not None else ()
     solution, _ = decompose(drawing, config.decomposition, room_of(config))
     wires, findings = draw_wires(solution, config, beads)
