@@ -26,6 +26,10 @@ from wrapit.geometry import FloatArray
 _THIN_PX = 4.5
 _GOOD_PX = 10.0
 _THICK_PX = 28.0
+# How high are the stairs of grey edges, in pixels of the file? Half as high as those of hard ones; they only
+# show in strokes so thin that they are enlarged. Of 26 drawings 100 px wide the curves turn 1.03 times as much
+# as at 660 px in the median, 4.5 times if these stairs are followed; with 0.35 and 0.65 as much as with this.
+_GREY_STAIR = 0.5
 # How large may a picture become by that? 60 million pixels take a byte each as grey and as many as ink.
 _MOST_PIXELS = 60_000_000
 # How broad is the line along the edge of a filled shape, where outlines are asked for?
@@ -45,6 +49,11 @@ class Picture:
     light_on_dark: bool = False
     changes: tuple[Change, ...] = ()
     notices: tuple[Notice, ...] = ()
+
+    @property
+    def uneven_px(self) -> float:
+        """How high the stairs along the edges are, in working pixels; 0 where grey hides them."""
+        return self.ink.stair_px or (_GREY_STAIR / self.factor if self.factor < 1 else 0.0)
 
     def source(self, points: FloatArray) -> FloatArray:
         """Places (..., 2) in pixels of the file, where the centre of the first pixel is (0, 0)."""

@@ -137,7 +137,8 @@ def _traced(
     split_corners(graph, lines, ink, width_px, tracing.corner_angle)
     size_px = float(max(np.ptp(np.concatenate([line.points for line in lines.values()]), axis=0)))
     drop_short(graph, lines, tracing.shortest_segment * size_px / size_mm, tracing.shortest_segment)
-    steady = all_steadied(graph, lines, width_px, ink.stair_px) if ink.stair_px else lines
+    uneven_px = picture.uneven_px
+    steady = all_steadied(graph, lines, width_px, uneven_px) if uneven_px else lines
     rings = ring_joints(graph, steady, ink, width_px)
     # Steadying bends the ends of lines: what strokes point at is told by what was measured.
     measured = lines if needs_longer_look(ink, width_px) else steady
@@ -215,10 +216,9 @@ def _finding(notice: Notice, px: FloatArray, where: Placement) -> Finding:
 
 def _tolerance(picture: Picture, tracing: TracingConfig) -> float:
     """How far curves may leave the points, in stroke widths: no stairs are followed."""
-    stair_px = picture.ink.stair_px
-    if not stair_px:
+    if not picture.uneven_px:
         return tracing.tolerance
-    return max(_OF_TOLERANCE * tracing.tolerance, _STAIR * stair_px / picture.skeleton.width_px)
+    return max(_OF_TOLERANCE * tracing.tolerance, _STAIR * picture.uneven_px / picture.skeleton.width_px)
 
 
 def _fitted(
