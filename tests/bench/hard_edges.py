@@ -6,8 +6,8 @@ at half grey, and a few of its drawings rendered anew at 100 to 4000 px.
 The smooth picture's lines are no truth: where an arc runs into another stroke they may be off by pixels, on
 either side. So the corpus' own centre lines are asked too. A drawing is good if its graph is the twin's, its
 turning and its Béziers are within the goals, and its worst point is either within the goal of the twin's
-lines, or no farther from the true ones than the twin's worst point and the goal. Nearness to the twin alone
-is counted beside.
+lines, or no farther from the true ones than the twin's worst point and the goal. Those within half a pixel of
+the twin are counted beside.
 
 The goal is half a pixel, or the fitting tolerance where that is more: 0.04 stroke widths, which are some
 pixels in pictures from 2000 px on, where either twin's curves may leave its own points by as much.
@@ -82,13 +82,14 @@ class Twin:
 
     @property
     def strict(self) -> bool:
-        return self.calm and self.off_px <= self.goal_px
+        """Within half a pixel of the twin, whatever the fitting tolerance is."""
+        return self.calm and self.off_px <= GOALS["off_px"]
 
     @property
     def good(self) -> bool:
         """Near to the twin, or hardly farther from the truth than that."""
-        near = self.true_px is not None and self.true_px[0] <= self.true_px[1] + self.goal_px
-        return self.strict or (self.calm and near)
+        true = self.true_px is not None and self.true_px[0] <= self.true_px[1] + self.goal_px
+        return self.calm and (self.off_px <= self.goal_px or true)
 
     @property
     def calm(self) -> bool:
@@ -120,8 +121,14 @@ def points_px(drawing: Drawing) -> NDArray[Any]:
     return (points - frame.origin_mm) / frame.mm_per_px * [1, -1]
 
 
-def _degrees(drawing: Drawing) -> list[int]:
+def degrees(drawing: Drawing) -> list[int]:
+    """How many ends meet at each node, in order."""
     return sorted(len(ends) for ends in drawing.half_edges())
+
+
+def beziers(drawing: Drawing) -> int:
+    """How many Béziers its segments take."""
+    return sum(len(segment.curve) for segment in drawing.segments)
 
 
 def true_points_px(truth: dict[str, Any]) -> NDArray[Any]:
@@ -169,20 +176,21 @@ def compared(
 ) -> Twin:
     a, b = points_px(hard), points_px(smooth)
     truth = None if true is None else true_points_px(true)
-    graphs = [_degrees(smooth)] + ([] if true is None else [true_degrees(true)])
+    graphs = [degrees(smooth)] + ([] if true is None else [true_degrees(true)])
     return Twin(
         name,
         kind,
         turning_deg(hard) / max(turning_deg(smooth), 1.0),
-        sum(len(s.curve) for s in hard.segments) / sum(len(s.curve) for s in smooth.segments),
+        beziers(hard) / beziers(smooth),
         apart_px(a, b),
-        _degrees(hard) in graphs,
+        degrees(hard) in graphs,
         goal_px(smooth),
         None if truth is None else (apart_px(a, truth), apart_px(b, truth)),
     )
 
 
-def _traced(path: Path) -> Drawing:
+def traced(path: Path) -> Drawing:
+    """The drawing as a config without settings has it traced."""
     return trace(path, TracingConfig(), SIZE_MM)[0]
 
 
@@ -209,18 +217,18 @@ def twins(names: list[str]) -> Iterator[Twin | str]:
     for hard in sorted((CASES / "photo").glob("hard-edged-*.png")):
         smooth = hard.with_name(f"smooth-{hard.stem.removeprefix('hard-edged-').removesuffix('bw')}aa.png")
         if smooth.exists() and not names:
-            yield compared(hard.stem, "cases", _traced(hard), _traced(smooth))
+            yield compared(hard.stem, "cases", traced(hard), traced(smooth))
     with tempfile.TemporaryDirectory() as folder:
         for name, kind, grey, truth in grey_pictures(names):
             try:
-                smooth_drawing = _traced(_png(grey, Path(folder) / "smooth"))
+                smooth_drawing = traced(_png(grey, Path(folder) / "smooth"))
             except WrapItError as error:
                 yield f"{name:28} {kind:16} smooth refused: {error.problem}"
                 continue
             edged = np.where(grey < 128, 0, 255).astype(np.uint8)
             for said, write in WRITERS.items():
                 try:
-                    hard_drawing = _traced(write(edged, Path(folder) / said))
+                    hard_drawing = traced(write(edged, Path(folder) / said))
                     yield compared(name, f"{kind}, {said}", hard_drawing, smooth_drawing, truth)
                 except WrapItError as error:
                     yield f"{name:28} {kind + ', ' + said:16} refused: {error.problem}"

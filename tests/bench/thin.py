@@ -14,11 +14,9 @@ import numpy as np
 from PIL import Image
 from scipy.spatial import cKDTree
 
-from tests.bench.drawing import CORPUS, SIZE_MM, pictures
-from tests.bench.hard_edges import points_px, true_points_px, turning_deg
-from wrapit.config import TracingConfig
+from tests.bench.drawing import CORPUS, pictures
+from tests.bench.hard_edges import beziers, degrees, points_px, traced, true_points_px, turning_deg
 from wrapit.drawing.model import Drawing
-from wrapit.drawing.stage import trace
 from wrapit.errors import DrawingError
 
 WIDTHS_PX = (100, 150, 200, 300, 400)
@@ -34,7 +32,7 @@ def main(names: list[str] | None = None) -> None:
         print("no small pictures: pip install resvg_py")
         return
     drawn = [
-        (path, _traced(path), truth)
+        (path, traced(path), truth)
         for kind, path, truth, _ in (pictures() if (CORPUS / "evaluate.py").exists() else [])
         if kind == "clean" and (not names or path.stem in names)
     ]
@@ -54,32 +52,20 @@ def _row(width_px: int, drawn: list[tuple[Path, Drawing, dict[str, object]]]) ->
             grey = rendered(CORPUS / "dev" / f"{path.stem}.svg", width_px)[0]
             Image.fromarray(grey).save(small := Path(folder) / "small.png")
             try:
-                found = _traced(small)
+                found = traced(small)
             except DrawingError:
                 refused += 1
                 continue
-            graphs += _degrees(found) == _degrees(full)
+            graphs += degrees(found) == degrees(full)
             if turning_deg(full) > LEAST_TURNING_DEG:
-                multiples.append((turning_deg(found) / turning_deg(full), _beziers(found) / _beziers(full)))
+                multiples.append((turning_deg(found) / turning_deg(full), beziers(found) / beziers(full)))
             # The centre of the first pixel is (0, 0), whatever its size.
             scale = grey.shape[1] / Image.open(path).width
             true = (true_points_px(truth) + 0.5) * scale - 0.5
             off_px.append(cKDTree(true).query(points_px(found))[0].mean())
-    turning, beziers = np.array(multiples).T
+    turning, pieces = np.array(multiples).T
     return (
         f"graph {graphs} of {len(drawn)}, {refused} refused  turning median {np.median(turning):.2f}"
         f" p90 {np.percentile(turning, 90):.2f} worst {turning.max():.2f}  beziers median"
-        f" {np.median(beziers):.2f} worst {beziers.max():.2f}  off median {np.median(off_px):.2f} px"
+        f" {np.median(pieces):.2f} worst {pieces.max():.2f}  off median {np.median(off_px):.2f} px"
     )
-
-
-def _traced(path: Path) -> Drawing:
-    return trace(path, TracingConfig(), SIZE_MM)[0]
-
-
-def _degrees(drawing: Drawing) -> list[int]:
-    return sorted(len(ends) for ends in drawing.half_edges())
-
-
-def _beziers(drawing: Drawing) -> int:
-    return sum(len(segment.curve) for segment in drawing.segments)
