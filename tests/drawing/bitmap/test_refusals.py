@@ -127,7 +127,7 @@ def test_however_long_a_filled_shape_is_it_is_refused(tmp_path, narrow, half_len
     height = 2 * narrow * half_length * (1 - (along / half_length) ** 2)
     path = tmp_path / "lens.png"
     Image.fromarray((255 * (np.abs(across) > height / 2)).astype(np.uint8)).save(path)
-    with pytest.raises(DrawingError, match="filled|dots"):
+    with pytest.raises(DrawingError, match=r"filled|dots"):
         trace(path, TracingConfig(), 40.0)
 
 
