@@ -20,8 +20,11 @@ _PINHOLE_AREA = 0.12
 # hardly beyond the edge of the other stroke; set on prototypes.
 _SPUR = 1.4
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
-# pixel or two more or less; those of a drawn fork are longer, or have paper between their tips.
+# pixel or two more or less; those of a drawn fork are longer, or have paper between their tips. And they run
+# out into the corners: halfway the ink is half as broad as at the fork, that of a short bar across the end of
+# a stroke 0.8 times as broad (the T of an arrow against a bar lost its bar).
 _CORNER = 1.9
+_TAPERED = 0.65
 _BEFORE_TIPS = 0.75
 # What is a loop around nothing, and a speck of dirt? In stroke widths; the first was set on prototypes, the
 # second is a dot, no line.
@@ -102,7 +105,12 @@ def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, w
         if len(twigs) < 2:
             continue
         reach = _CORNER * max(radius(graph.nodes[node]), width_px / 2)
-        twigs = [(strand, tip) for strand, tip in twigs if graph.length(strand) < reach]
+        broad = _TAPERED * radius(graph.nodes[node])
+        twigs = [
+            (strand, tip)
+            for strand, tip in twigs
+            if graph.length(strand) < reach and radius(graph.path(strand)[len(graph.path(strand)) // 2]) < broad
+        ]
         if len(twigs) != 2:
             continue
         # The tips themselves may be the ink's outermost pixels.
