@@ -144,7 +144,7 @@ def _traced(
     measured = lines if needs_longer_look(ink, width_px) else steady
     endings = ended(graph, measured, rings, ink, width_px)
     tolerance = _tolerance(picture, tracing)
-    pieces = _fitted(graph, steady, endings, width_px, tolerance, ink.stair_px > 0)
+    pieces = _fitted(graph, steady, endings, width_px, tolerance)
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
@@ -227,13 +227,12 @@ def _fitted(
     endings: dict[tuple[int, int], Ending],
     width_px: float,
     tolerance: float,
-    hard: bool,
 ) -> list[Piece]:
     for node in graph.nodes:
         if graph.is_seam(node):
             _seam(graph, lines, node, endings, width_px)
     strokes = [
-        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1], hard)
+        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1])
         for strand in graph.strands
     ]
     chains = fit_all(strokes, tolerance * width_px, reach=width_px)
@@ -259,7 +258,7 @@ def _seam(
     endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
 
 
-def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending, hard: bool) -> Stroke:
+def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
     s = graph.strands[strand]
     stop = len(line.points) - last.cut
     inner = slice(first.cut, stop)
@@ -268,9 +267,8 @@ def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: En
     # A point every quarter of the width tells a curve as well as one every eighth.
     if len(middle) > 32:
         told = np.arange(len(middle)) % 2 == 0
-        if hard:
-            # A gentle corner's own points have no width; without its apex a curve cuts it by up to 2 px.
-            told |= np.isnan(line.width[inner][keep])
+        # A gentle corner's own points have no width; without its apex a curve cuts it by a third of a width.
+        told |= np.isnan(line.width[inner][keep])
         middle = middle[told]
     points = np.vstack(
         [graph.nodes[s.start][None], first.lead, middle, last.lead[::-1], graph.nodes[s.end][None]]

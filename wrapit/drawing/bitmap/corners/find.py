@@ -12,7 +12,7 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.corners.edge_fit import turns
 from wrapit.drawing.bitmap.corners.roundness import bend_radius
 from wrapit.drawing.bitmap.corners.short_sides import chain_between
-from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, tops, turning
+from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, kinks, tops, turning
 from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, curved_chains
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.ink import Ink
@@ -48,6 +48,8 @@ _CORNER = 1 / 3
 # turn by 145 degrees read as 0.24 and 0.3, true corners as 0.14 at most. On 80 strokes with two bends of 0.45
 # to 1 and as many with corners a third changes nothing.
 _CURVED_CORNER = 0.22
+# How far from the middle line is a corner between arcs? Inside of the ink.
+_INSIDE = 0.5
 # When is a side straight? Where a straight line misses it by hardly more than a quadratic: 1.2 times, and a
 # thousandth of a width.
 _STRAIGHT = 1.2
@@ -84,8 +86,35 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     stretches = crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px)
     groups = _crowded_groups(line, ink, stretches, apart)
     found = _in_order(groups, apart)
+    hidden = _hidden(line, ink, width_px, (first, last), found)
+    found = _in_order([[corner] for corner in hidden], found) if hidden else found
     curved = _between_curves(line, ink, width_px, stretches, (first, last), most, groups, found)
-    return _in_order([*groups, *curved], apart) if curved else found
+    return _in_order([*groups, *curved], [*apart, *hidden]) if curved else found
+
+
+def _hidden(
+    line: Line, ink: Ink, width_px: float, limits: tuple[int, int], found: list[Corner]
+) -> list[Corner]:
+    """The sharp corners, beside those found, between arcs that hide their turn."""
+    spans = [(corner.before, corner.after) for corner in found]
+    around = round(_LEAST * width_px * (len(line.points) - 1) / line.length)
+    places = [
+        int(kink)
+        for kink in kinks(line, width_px, *limits)
+        if not any(before - around <= kink <= after + around for before, after in spans)
+    ]
+    hidden = []
+    for kink in places:
+        others = [*((other, other) for other in places), *spans]
+        start = max([limits[0], *(after for _, after in others if after < kink)])
+        end = min([limits[1], *(before for before, _ in others if before > kink)])
+        place = float(line.along[kink])
+        low = max(float(line.along[start]), place - _FAR * width_px)
+        high = min(float(line.along[end]), place + _FAR * width_px)
+        corner = _corner(line, ink, width_px, place, low, high)
+        if corner is not None and corner.sharp and _off(line, corner.points[0], corner.before - 1, corner.after) < _INSIDE * width_px:
+            hidden.append(corner)
+    return hidden
 
 
 def _between_curves(
@@ -234,7 +263,7 @@ def _corner(line: Line, ink: Ink, width_px: float, place: float, start: float, e
         return None
     apex, arriving, leaving = met
     turn = angle(arriving, leaving)
-    off = float(np.linalg.norm(line.points - apex, axis=1).min())
+    off = _off(line, apex, 0, len(line.points))
     sharpness = width_px * (1 / max(math.cos(turn / 2), 0.05) - 1)
     if turn < SEEN_RAD or off > 1.5 * width_px or off > _ROUND * sharpness + 0.05 * width_px:
         return None
@@ -247,6 +276,11 @@ def _corner(line: Line, ink: Ink, width_px: float, place: float, start: float, e
     # The sides may reach into the arc.
     between = ((bend - line.points[before - 1]) @ arriving > 0) & ((line.points[after] - bend) @ leaving > 0)
     return Corner(bend[between], before, after, turn, False) if between.any() else None
+
+
+def _off(line: Line, apex: FloatArray, first: int, last: int) -> float:
+    """How far an apex is from the nearest point of a line between two of its points."""
+    return float(np.linalg.norm(line.points[first : last + 1] - apex, axis=1).min())
 
 
 def _arc(

@@ -20,6 +20,10 @@ _PROBE = 1.7
 # which 32 come out right (24 without), and on as many with bends of 0.45 to 1 (51 and 51). Not varied alone.
 _CLOSE_NEAR = 0.35
 _CLOSE_PROBE = 0.9
+# How far beside a corner do its sides turn as they do? Where the corner itself is no longer seen.
+_BESIDE = 1.5
+# How far is its echo? There the arcs turn otherwise than the corner beside them.
+_ECHO = 2.0
 # Which are close? Two nearer than this, of which one is as sharp as corners are: bends of 1.6 turn by less.
 _TWINS = 2.4
 # How near to each other are two tops one? With a width, the gentler of two is lost.
@@ -36,6 +40,12 @@ def turning(
     line: Line, width_px: float, first: int, last: int, probes: tuple[float, float] = (_NEAR, _PROBE)
 ) -> FloatArray:
     """How much the line turns at each of its points, in radians; nothing near the ends of a stretch."""
+    return np.abs(_signed_turning(line, width_px, first, last, probes))
+
+
+def _signed_turning(
+    line: Line, width_px: float, first: int, last: int, probes: tuple[float, float]
+) -> FloatArray:
     # The points are evenly spaced, so lengths are counts.
     along = line.along
     step = max(line.length / (len(along) - 1), 1e-6)
@@ -48,10 +58,32 @@ def turning(
         return line.points[np.minimum(np.maximum(inner + shift, first), min(last, len(along) - 1))]
 
     before, after = at(-near) - at(-far), at(far) - at(near)
-    turn[inner] = np.abs(
-        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
+    turn[inner] = np.arctan2(
+        before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1)
     )
     return turn
+
+
+def kinks(line: Line, width_px: float, first: int, last: int) -> list[int]:
+    """The points where the line turns one way between sides that turn the other.
+
+    What the arcs turn hides what such a corner turns. Where two are close by, neither is told.
+    """
+    turn = _signed_turning(line, width_px, first, last, (_CLOSE_NEAR, _CLOSE_PROBE))
+    inner = np.flatnonzero(turn)
+    if not len(inner):
+        return []
+    per_width = width_px * (len(turn) - 1) / max(line.length, 1e-6)
+    beside, own, close = (round(reach * per_width) for reach in (_BESIDE, _CLOSE_NEAR + _CLOSE_PROBE, _TWINS))
+    at = np.arange(len(turn))
+    around = turn[np.clip(at - beside, inner[0], inner[-1])] + turn[np.clip(at + beside, inner[0], inner[-1])]
+    hidden = tops(line, np.where(turn * around < 0, np.abs(turn - around / 2), 0.0), _ECHO * width_px)
+
+    def alone(kink: int) -> bool:
+        beyond = [turn[max(kink - close, 0) : max(kink - own, 0)], turn[kink + own + 1 : kink + close + 1]]
+        return bool((np.concatenate(beyond) * np.sign(turn[kink]) < SEEN_RAD).all())
+
+    return [kink for kink in hidden.tolist() if alone(kink)]
 
 
 def tops(line: Line, turn: FloatArray, width_px: float) -> NDArray[np.intp]:
