@@ -8,7 +8,17 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import CENTRE, SIZE_PX, TURNS, WIDTHS, few, junction_near, line, turned
+from tests.drawing.bitmap.figures import (
+    CENTRE,
+    SIZE_PX,
+    TURNS,
+    WIDTHS,
+    few,
+    in_pixels,
+    junction_near,
+    line,
+    turned,
+)
 from tests.drawing.generated import degrees
 
 
@@ -35,6 +45,21 @@ def test_a_blunt_corner_is_none(traced, inner_angle, width, turn):
     )
     drawing, _ = traced([turned(bent, turn)], width)
     assert degrees(drawing) == [1, 1]
+
+
+@few
+@given(st.floats(122, 145), WIDTHS, TURNS)
+def test_a_blunt_corner_is_not_cut(traced, inner_angle, width, turn):
+    """Curves run through its apex: the points that tell it are few."""
+    back = math.radians(180 - inner_angle)
+    bent = line(
+        (80, CENTRE), (CENTRE, CENTRE), (CENTRE + 150 * math.cos(back), CENTRE + 150 * math.sin(back))
+    )
+    points = turned(bent, turn)
+    drawing, _ = traced([points], width)
+    assert degrees(drawing) == [1, 1]
+    course = np.array([in_pixels(drawing, at) for at in drawing.segments[0].curve.sampled(0.1)])
+    assert np.linalg.norm(course - points[1], axis=1).min() < 0.08 * width
 
 
 def test_a_round_bend_is_no_corner(traced):

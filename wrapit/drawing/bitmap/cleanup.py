@@ -109,7 +109,8 @@ def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, w
         twigs = [
             (strand, tip)
             for strand, tip in twigs
-            if graph.length(strand) < reach and radius(graph.path(strand)[len(graph.path(strand)) // 2]) < broad
+            if graph.length(strand) < reach
+            and radius(graph.path(strand)[len(graph.path(strand)) // 2]) < broad
         ]
         if len(twigs) != 2:
             continue

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.corners.edge_fit import turns
+from wrapit.drawing.bitmap.corners.edge_fit import missed, turns
 from wrapit.drawing.bitmap.corners.roundness import bend_radius
-from wrapit.drawing.bitmap.corners.short_sides import chain_between
+from wrapit.drawing.bitmap.corners.short_sides import chain_between, edge_points
 from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, kinks, tops, turning
-from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, curved_chains
+from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, chain_around, curved_chains
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray, unit
@@ -85,35 +85,84 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     apart = _apart(line, ink, width_px, _places(line, most, width_px), low, high)
     stretches = crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px)
     groups = _crowded_groups(line, ink, stretches, apart)
-    found = _in_order(groups, apart)
-    hidden = _hidden(line, ink, width_px, (first, last), found)
-    found = _in_order([[corner] for corner in hidden], found) if hidden else found
-    curved = _between_curves(line, ink, width_px, stretches, (first, last), most, groups, found)
-    return _in_order([*groups, *curved], [*apart, *hidden]) if curved else found
+    limits = first, last
+
+    def with_curves(known: list[list[Corner]]) -> list[list[Corner]]:
+        found = _in_order(known, apart)
+        return [*known, *_between_curves(line, ink, width_px, stretches, limits, most, known, found)]
+
+    seen = kinks(line, width_px, *limits)
+    told = [with_curves(groups)]
+    if seen:
+        # Which tells more, chains of curved sides or what is between arcs at first? Either hides the other.
+        told[0] += _hidden(line, ink, width_px, limits, seen, _in_order(told[0], apart))
+        if hidden := _hidden(line, ink, width_px, limits, seen, _in_order(groups, apart)):
+            told.append(with_curves([*groups, *hidden]))
+    found = [_in_order(known, apart) for known in told]
+    if len(found) == 1:
+        return found[0]
+    return min(found, key=lambda corners: _missed(line, ink, width_px, limits, corners))
+
+
+def _missed(line: Line, ink: Ink, width_px: float, limits: tuple[int, int], corners: list[Corner]) -> float:
+    """By how much a line with some corners misses the ink's edges (root mean square, in stroke widths)."""
+    parts, start = [], limits[0]
+    for corner in corners:
+        parts += [line.points[start : corner.before]]
+        parts += [side.points for side in (corner.side,) if side is not None]
+        parts += [corner.points]
+        parts += [side.points for side in (corner.last_side,) if side is not None]
+        start = corner.after
+    course = np.concatenate([*parts, line.points[start : limits[1] + 1]])
+    edge = edge_points(ink, line.points[limits[0] : limits[1] + 1], width_px)
+    return missed(course, edge, width_px).rms
 
 
 def _hidden(
-    line: Line, ink: Ink, width_px: float, limits: tuple[int, int], found: list[Corner]
-) -> list[Corner]:
+    line: Line,
+    ink: Ink,
+    width_px: float,
+    limits: tuple[int, int],
+    kinks: list[int],
+    found: list[Corner],
+) -> list[list[Corner]]:
     """The sharp corners, beside those found, between arcs that hide their turn."""
-    spans = [(corner.before, corner.after) for corner in found]
     around = round(_LEAST * width_px * (len(line.points) - 1) / line.length)
-    places = [
-        int(kink)
-        for kink in kinks(line, width_px, *limits)
-        if not any(before - around <= kink <= after + around for before, after in spans)
+
+    def tells(corner: Corner, kink: int) -> bool:
+        """Whether a corner found is the one at a kink: one beside it took an arc's turn for its own."""
+        at = corner.before - around <= kink <= corner.after + around
+        off = np.linalg.norm(corner.points - line.points[kink], axis=1).min()
+        return at and (corner.chained or bool(off < _INSIDE * width_px))
+
+    places = [kink for kink in kinks if not any(tells(corner, kink) for corner in found)]
+    spans = [
+        (corner.before, corner.after)
+        for corner in found
+        if not any(corner.before - around <= kink <= corner.after + around for kink in places)
     ]
     hidden = []
     for kink in places:
         others = [*((other, other) for other in places), *spans]
         start = max([limits[0], *(after for _, after in others if after < kink)])
         end = min([limits[1], *(before for before, _ in others if before > kink)])
+        middle = (
+            (start + kink) // 2 if start in places else start,
+            (end + kink) // 2 if end in places else end,
+        )
+        chain = chain_around(line, ink, width_px, kink, middle)
+        corners = _of_curves(ink, chain) if chain else []
+        if corners and corners[0].sharp:
+            hidden.append(corners)
+            continue
         place = float(line.along[kink])
         low = max(float(line.along[start]), place - _FAR * width_px)
         high = min(float(line.along[end]), place + _FAR * width_px)
         corner = _corner(line, ink, width_px, place, low, high)
-        if corner is not None and corner.sharp and _off(line, corner.points[0], corner.before - 1, corner.after) < _INSIDE * width_px:
-            hidden.append(corner)
+        if corner is not None and corner.sharp:
+            apex, before, after = corner.points[0], corner.before - 1, corner.after
+            if _off(line, apex, before, after) < _INSIDE * width_px:
+                hidden.append([corner])
     return hidden
 
 

@@ -21,9 +21,11 @@ _PROBE = 1.7
 _CLOSE_NEAR = 0.35
 _CLOSE_PROBE = 0.9
 # How far beside a corner do its sides turn as they do? Where the corner itself is no longer seen.
-_BESIDE = 1.5
+_BESIDE = 1.1
 # How far is its echo? There the arcs turn otherwise than the corner beside them.
 _ECHO = 2.0
+# What does a corner turn at least that its arcs hide? Less is what straight lines do by a hair.
+_LEAST_RAD = math.radians(10)
 # Which are close? Two nearer than this, of which one is as sharp as corners are: bends of 1.6 turn by less.
 _TWINS = 2.4
 # How near to each other are two tops one? With a width, the gentler of two is lost.
@@ -73,17 +75,21 @@ def kinks(line: Line, width_px: float, first: int, last: int) -> list[int]:
     inner = np.flatnonzero(turn)
     if not len(inner):
         return []
-    per_width = width_px * (len(turn) - 1) / max(line.length, 1e-6)
-    beside, own, close = (round(reach * per_width) for reach in (_BESIDE, _CLOSE_NEAR + _CLOSE_PROBE, _TWINS))
+    beside = round(_BESIDE * width_px * (len(turn) - 1) / max(line.length, 1e-6))
     at = np.arange(len(turn))
     around = turn[np.clip(at - beside, inner[0], inner[-1])] + turn[np.clip(at + beside, inner[0], inner[-1])]
-    hidden = tops(line, np.where(turn * around < 0, np.abs(turn - around / 2), 0.0), _ECHO * width_px)
+    kink = np.abs(turn - around / 2)
+    against = (turn * around < 0) & (np.abs(turn) > _LEAST_RAD) & (kink > _SHARP_RAD)
+    if not against.any():
+        return []
+    hidden = tops(line, np.where(against, kink, 0.0), _ECHO * width_px)
+    close = tops(line, np.abs(turn), _CLOSE_TOPS * width_px)
 
-    def alone(kink: int) -> bool:
-        beyond = [turn[max(kink - close, 0) : max(kink - own, 0)], turn[kink + own + 1 : kink + close + 1]]
-        return bool((np.concatenate(beyond) * np.sign(turn[kink]) < SEEN_RAD).all())
+    def twin(one: int, other: int) -> bool:
+        apart = abs(line.along[one] - line.along[other]) / width_px
+        return bool(_CLOSE_TOPS < apart < _TWINS and turn[one] * turn[other] > 0)
 
-    return [kink for kink in hidden.tolist() if alone(kink)]
+    return [kink for kink in hidden.tolist() if not any(twin(kink, other) for other in close)]
 
 
 def tops(line: Line, turn: FloatArray, width_px: float) -> NDArray[np.intp]:

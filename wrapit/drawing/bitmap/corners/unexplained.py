@@ -85,6 +85,16 @@ def curved_chains(
     return [*found, *_between_twins(line, ink, width_px, limits, tops, spans, taken, found)]
 
 
+def chain_around(
+    line: Line, ink: Ink, width_px: float, at: int, limits: tuple[int, int]
+) -> CurvedChain | None:
+    """The chain of two curved sides that explains a corner near a point of a line, within limits."""
+    around = round(_AROUND * width_px * (len(line.points) - 1) / line.length)
+    window = max(at - around, limits[0]), min(at + around, limits[1])
+    chain = _chain(line, ink, window, window, [])
+    return chain if chain is not None and len(chain.curves.corners) == 3 else None
+
+
 def _between_twins(
     line: Line,
     ink: Ink,
