@@ -219,7 +219,7 @@ def _in_order(groups: list[list[Corner]], apart: list[Corner]) -> list[Corner]:
     free = [c for c in apart if not any(start <= c.after and c.before <= end for start, end in spans)]
     found: list[Corner] = []
     for group in sorted([*groups, *([c] for c in free)], key=lambda group: group[0].before):
-        if not found or group[0].before > found[-1].after:
+        if not found or group[0].before >= found[-1].after:
             found += group
     return found
 
