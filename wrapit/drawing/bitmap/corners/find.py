@@ -12,7 +12,7 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.corners.edge_fit import missed, turns
 from wrapit.drawing.bitmap.corners.roundness import bend_radius
 from wrapit.drawing.bitmap.corners.short_sides import chain_between, edge_points
-from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, kinks, tops, turning
+from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, kinks, parted, tops, turning
 from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, chain_around, curved_chains
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.ink import Ink
@@ -33,11 +33,6 @@ _FAR = 4.5
 _LEAST = 0.45
 # When are two places of most turning one corner? Where they are nearer than a width and a quarter.
 _TWICE = 1.25
-# Where does a crowd of corners end? Where the line turns less than this, over this length: two corners with
-# opposite turns cancel each other in between. Parting those that no chain fits once more, at shorter pauses,
-# gets 4 of 200 chains more, and takes three times as long on real drawings.
-_CALM_RAD = math.radians(14)
-_PAUSE = 1.3
 # What may be a corner? A bend that is no rounder by its middle line; its outer edge decides. With 0.49 true
 # corners are not even looked at: Hausdorff distance 0.28.
 _ROUND = 0.7
@@ -83,7 +78,7 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     if not len(most):
         return []
     apart = _apart(line, ink, width_px, _places(line, most, width_px), low, high)
-    stretches = crowds(line, turn, most, _CALM_RAD, _PAUSE * width_px)
+    stretches = parted(line, width_px, crowds(line, turn, most, width_px))
     groups = _crowded_groups(line, ink, stretches, apart)
     limits = first, last
 
@@ -312,7 +307,7 @@ def _corner(line: Line, ink: Ink, width_px: float, place: float, start: float, e
         return None
     apex, arriving, leaving = met
     turn = angle(arriving, leaving)
-    off = _off(line, apex, 0, len(line.points))
+    off = _off(line, apex, sides[0][0][-1], sides[1][0][0])
     sharpness = width_px * (1 / max(math.cos(turn / 2), 0.05) - 1)
     if turn < SEEN_RAD or off > 1.5 * width_px or off > _ROUND * sharpness + 0.05 * width_px:
         return None

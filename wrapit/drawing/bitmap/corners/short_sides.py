@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line, edges
 from wrapit.drawing.bitmap.corners.edge_fit import chain_of, missed
+from wrapit.drawing.bitmap.corners.turning import LONGEST
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polyline import lengths
@@ -19,8 +20,6 @@ from wrapit.geometry.polyline import lengths
 # of the edges miss it by less: three in five of the bends of real drawings, and one chain in thirty.
 _MOSTLY = 90
 _ENOUGH = 0.02
-# How long may a crowd be? Eight corners three widths apart, less the last.
-_LONGEST = 20
 # Fewer points of the middle line than this say nothing: a chain of two sides has as many unknowns.
 _FEWEST = 8
 # When does a chain fit? Grey edges are off by 0.01 to 0.02, hard ones by up to a fifth of a pixel; with 0.02
@@ -76,7 +75,7 @@ def chain_between(line: Line, ink: Ink, start: int, end: int, known: list[FloatA
     first, last = clean_from(line, start, -1), clean_from(line, end, 1)
     if first is None or last is None:
         return None
-    stretch = stretch_of(line, first, last, _LONGEST)
+    stretch = stretch_of(line, first, last, LONGEST)
     if stretch is None:
         return None
     middle, width_px = stretch
