@@ -6,7 +6,8 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import arm
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.corners.find import Corner, find_corners
+from wrapit.drawing.bitmap.corners.apart import Corner
+from wrapit.drawing.bitmap.corners.find import find_corners
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
