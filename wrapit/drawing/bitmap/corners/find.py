@@ -26,9 +26,9 @@ from wrapit.geometry import unit
 from wrapit.geometry.polynomials import angle
 
 # In stroke widths.
-# What is a corner between curved sides? They take over part of a bend's turn, so that it looks sharper: bends of
-# 0.4 that turn by 145 degrees read as 0.24 and 0.3, true corners as 0.14 at most. On 80 strokes with two bends
-# of 0.45 to 1 and as many with corners a third changes nothing.
+# What is a corner between curved sides? They take over part of a bend's turn, so that it looks sharper: bends
+# of 0.4 that turn by 145 degrees read as 0.24 and 0.3, true corners as 0.14 at most. On 80 strokes with two
+# bends of 0.45 to 1 and as many with corners a third changes nothing.
 _CURVED_CORNER = 0.22
 # How far from the middle line is a corner between arcs? Inside of the ink. (With 0.7, of 288 rows of arcs 158
 # come out right instead of 171.)
