@@ -7,6 +7,7 @@ import math
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
 from tests.drawing.bitmap.figures import (
     ACROSS,
@@ -21,6 +22,9 @@ from tests.drawing.bitmap.figures import (
     line,
     turned,
 )
+from tests.drawing.generated import degrees
+from wrapit.config import TracingConfig
+from wrapit.drawing.stage import trace
 
 
 @few
@@ -67,3 +71,39 @@ def test_an_end_that_bends_one_way_and_back_is_where_its_ink_ends(traced, radius
     places = [in_pixels(drawing, junction.point) for junction in drawing.junctions]
     end = turned(wave, turn)[0]
     assert min(np.linalg.norm(place - end) for place in places) < 0.1 * width
+
+
+@few
+# (Of those that stick out by 0.6 one in five is lost: they look like a corner's tip.)
+@given(st.floats(1.05, 2), st.floats(60, 90), st.floats(6, 16), TURNS)
+def test_the_short_end_of_a_bar_beyond_a_post_is_seen(traced, out, angle, width, turn):
+    side, rad = 9 * width, math.radians(angle)
+    joint = np.array([CENTRE, CENTRE])
+    bar = line((CENTRE - out * width, CENTRE), (CENTRE + side, CENTRE))
+    post = line((CENTRE, CENTRE), (CENTRE + side * math.cos(rad), CENTRE + side * math.sin(rad)))
+    drawing, _ = traced([turned(bar, turn), turned(post, turn)], width)
+    assert degrees(drawing) == [1, 1, 1, 3]
+    assert np.linalg.norm(junction_near(drawing, 3) - joint) < 0.3 * width
+
+
+@few
+@given(st.floats(2.2, 3), st.floats(42, 55), st.floats(7, 16), TURNS)
+def test_an_arrow_keeps_its_short_barbs(traced, barb, angle, width, turn):
+    rad, tip = math.radians(angle), (CENTRE + 6 * width, CENTRE)
+    back = [
+        (tip[0] - barb * width * math.cos(rad), tip[1] + k * barb * width * math.sin(rad)) for k in (-1, 1)
+    ]
+    arrow = [line((CENTRE - 8 * width, CENTRE), tip), line(back[0], tip, back[1])]
+    drawing, _ = traced([turned(stroke, turn) for stroke in arrow], width)
+    assert degrees(drawing) == [1, 1, 1, 3]
+
+
+@few
+@given(st.floats(1, 2), st.floats(6, 16), TURNS)
+def test_the_flat_end_of_a_broad_stroke_is_one_end(tmp_path, broader, width, turn):
+    """Its corners are no barbs."""
+    y, x = np.mgrid[:SIZE_PX, :SIZE_PX] - CENTRE
+    along, across = np.cos(turn) * x + np.sin(turn) * y, np.cos(turn) * y - np.sin(turn) * x
+    ink = (np.abs(along) < 9 * width) & (np.abs(across) < broader * width / 2)
+    Image.fromarray((255 * ~ink).astype(np.uint8)).save(tmp_path / "flat.png")
+    assert degrees(trace(tmp_path / "flat.png", TracingConfig(), 50.0)[0]) == [1, 1]

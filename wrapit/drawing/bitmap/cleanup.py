@@ -19,6 +19,13 @@ _PINHOLE_AREA = 0.12
 # What is a spur? A side branch shorter than this many half widths of the ink at its junction, which end
 # hardly beyond the edge of the other stroke; set on prototypes.
 _SPUR = 1.4
+# What is a short stroke's end instead? One as broad up to its round tip as strokes are, at least so long
+# (0.45 beyond the other stroke's axis), whose tip is farther than this from what else leaves its fork, some
+# of which leaves to the side: at less than 120 degrees from it (minus the cosine), unlike at acute tips.
+_STUB = 0.3
+_FULL = (0.42, 0.58)
+_BEYOND = 0.8
+_ASIDE = -0.5
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
 # pixel or two more or less; those of a drawn fork are longer, or have paper between their tips. And they run
 # out into the corners: at five sixths of their length the ink is a third as broad as halfway, that of a short
@@ -74,7 +81,8 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
                 continue
             node = s.end if free[0] else s.start
             length = graph.length(strand)
-            if length < longest and length < _SPUR * max(radius(graph.nodes[node]), width_px / 2):
+            short = length < longest and length < _SPUR * max(radius(graph.nodes[node]), width_px / 2)
+            if short and not _is_stub(graph, strand, node, radius, width_px):
                 spurs.append((length, strand, node))
         if not spurs:
             return
@@ -92,6 +100,30 @@ def _prune_spurs(graph: StrandGraph, radius: Radii, width_px: float) -> None:
         if not touched:
             return
         graph.drop_lonely()
+
+
+def _is_stub(graph: StrandGraph, strand: int, node: int, radius: Radii, width_px: float) -> bool:
+    """Whether a side branch is the short end of a stroke across another, as of a bar on a post."""
+    s = graph.strands[strand]
+    tip = graph.nodes[s.start if s.end == node else s.end]
+    at = graph.nodes[node]
+    length, broad = float(np.linalg.norm(tip - at)), radius(tip)
+    if length < _STUB * width_px or not _FULL[0] < broad / width_px < _FULL[1]:
+        return False
+    outwards = (tip - at) / length
+    out = tip + broad * outwards
+    crosses = False
+    for other, end in graph.ends_at(node):
+        if other == strand:
+            continue
+        points = graph.leaving(other, end)
+        if not len(points):
+            return False
+        if np.linalg.norm(points - out, axis=1).min() < _BEYOND * width_px:
+            return False
+        aside = points[min(len(points) - 1, round(width_px))] - at
+        crosses |= bool(aside @ outwards > _ASIDE * np.linalg.norm(aside))
+    return crosses
 
 
 def join_flat_ends(graph: StrandGraph, mask: NDArray[np.bool_], radius: Radii, width_px: float) -> None:
