@@ -11,6 +11,7 @@ from scipy.ndimage import maximum_filter, minimum_filter
 
 from tests.drawing.generated import random_curve, render
 from wrapit.drawing.bitmap import centre_lines
+from wrapit.drawing.bitmap.corners import edge_fit
 from wrapit.drawing.bitmap.hard_edges.slits import _closed, _surrounded
 from wrapit.drawing.bitmap.image import count_levels
 from wrapit.drawing.bitmap.ink import find_ink
@@ -82,3 +83,24 @@ def test_edges_in_two_looks_are_those_in_one(monkeypatch):
     assert np.isfinite(looks[0]).any()
     assert np.isnan(looks[0]).any()
     assert np.array_equal(*looks, equal_nan=True)
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.floats(0.01, 30),
+    st.sampled_from(["walk", "crossed", "still"]),
+    st.integers(1, 200),
+)
+def test_far_sides_are_no_points_nearest(seed, spread, kind, count):
+    random = np.random.default_rng(seed)
+    steps = random.normal(size=(60, 2)) * (10 if kind == "crossed" else 1)
+    steps[10:14] *= kind != "still"  # sides of no length
+    chain = np.cumsum(steps, axis=0)
+    edge = chain[random.integers(60, size=count)] + random.normal(size=(count, 2)) * spread
+    plain = edge_fit.missed(chain, edge, 3.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(edge_fit, "_WORTH_PARTING", 0)
+        patch.setattr(edge_fit, "_AT_ONCE", 7)
+        quick = edge_fit.missed(chain, edge, 3.0)
+    for part in ("side", "share", "outside", "away"):
+        assert np.array_equal(getattr(quick, part), getattr(plain, part))

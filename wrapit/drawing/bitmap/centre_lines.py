@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.arrays import median
 from wrapit.geometry.polyline import at_lengths, lengths
 
 # In stroke widths, unless the name says otherwise.
@@ -105,7 +106,7 @@ def centre_lines(
         points = points + np.nan_to_num(shift)[:, None] * normals
         paths = np.split(points, bounds)
     known = width[np.isfinite(width)]
-    spread = float(np.median(np.abs(known - np.median(known)))) if len(known) else 0.0
+    spread = median(np.abs(known - median(known))) if len(known) else 0.0
     return {
         strand: _line(path, width, width_px, min(spread, 0.1 * width_px))
         for strand, path, width in zip(strands, paths, np.split(width, bounds), strict=True)
@@ -114,7 +115,7 @@ def centre_lines(
 
 def _line(points: FloatArray, width: FloatArray, width_px: float, spread: float) -> Line:
     known = width[np.isfinite(width)]
-    usual = float(np.median(known)) if len(known) > 24 else width_px
+    usual = median(known) if len(known) > 24 else width_px
     usual = float(np.clip(usual, 0.85 * width_px, 1.15 * width_px))
     # Another stroke only widens: thinner places are the hand's, and as good as others.
     slack = max(_CLEAN * width_px, _CLEAN_PX, 1.5 * spread)
@@ -133,7 +134,7 @@ def _running_median(width: FloatArray, along: FloatArray, width_px: float) -> Fl
     size = 2 * round(_DRIFT_REACH * width_px / step) + 1
     seen = np.where(np.isnan(width), 2 * width_px, width)
     if size >= len(width):
-        return np.full(len(width), float(np.median(seen)))
+        return np.full(len(width), median(seen))
     return median_filter(seen, size, mode="reflect")
 
 
