@@ -235,31 +235,41 @@ def _closed(levels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
 
 def _first_crossing(levels: NDArray[np.float32], step: float, walked: int = 0) -> FloatArray:
     """How far one walks until the level rises through zero; `walked` steps lie before the first column."""
-    light = levels > 0
-    at = np.argmax(light, axis=1)
-    rows = np.arange(len(levels))
-    found = (at > 0) & light[rows, at]
-    last = np.maximum(at - 1, 0)
-    before, after = levels[rows, last], levels[rows, at]
-    share = np.divide(-before, after - before, out=np.zeros_like(before), where=after != before)
-    return np.where(found, (last + walked + share) * step, np.nan)
+    at = (levels > 0).argmax(axis=1)
+    # Places in one row are found in a third of the time that pairs of them take.
+    flat = levels.ravel()
+    place = np.arange(0, flat.size, levels.shape[1])
+    place += at
+    after = flat.take(place)
+    rows = ((at > 0) & (after > 0)).nonzero()[0]
+    found = np.full(len(levels), np.nan)
+    last, before, after = at.take(rows) - 1, flat.take(place.take(rows) - 1), after.take(rows)
+    found[rows] = (last + walked + before / (before - after)) * step
+    return found
 
 
 def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatArray) -> NDArray[np.float32]:
     """Bilinear grey levels (n, k) at offsets from points (n, 2); outside the picture all is paper."""
     grey = ink.framed
     height, width = grey.shape
-    x, y = (_clipped(points[:, k], offsets, directions[:, k], side) for k, side in ((0, width), (1, height)))
-    column, row = np.floor(x), np.floor(y)
-    x -= column
-    y -= row
+    # Both coordinates (2, n, k) at once, as there are many calls for few points.
+    at = np.empty((2, len(points), len(offsets)))
+    np.multiply(offsets, directions.T[..., None], out=at)
+    at += points.T[..., None]
+    np.maximum(at, -1.0, out=at)
+    # Not .001 from the frame: at 10,000 px single precision tells .001 apart.
+    np.minimum(at, np.array([width - 2.01, height - 2.01])[:, None, None], out=at)
+    within = at.astype(np.float32)
+    pixel = np.floor(within)
+    within -= pixel
+    x, y = within
     # Places are looked up four times, each of which would widen smaller numbers anew.
-    at = row.astype(np.intp)
-    at *= width
-    at += column.astype(np.intp)
-    at += width + 1  # beside and below the frame
+    column, place = pixel.astype(np.intp)
+    place *= width
+    place += column
+    place += width + 1  # beside and below the frame
     flat = grey.ravel()
-    a, b, c, d = (flat[step:].take(at).astype(np.float32) for step in (0, 1, width, width + 1))
+    a, b, c, d = (flat[step:].take(place).astype(np.float32) for step in (0, 1, width, width + 1))
     b -= a
     b *= x
     b += a
@@ -270,12 +280,3 @@ def sample(ink: Ink, points: FloatArray, directions: FloatArray, offsets: FloatA
     d *= y
     d += b
     return d
-
-
-def _clipped(at: FloatArray, offsets: FloatArray, direction: FloatArray, side: int) -> NDArray[np.float32]:
-    """One coordinate (n, k) at offsets from places (n,), within a picture whose frame has this side."""
-    found = offsets * direction[:, None]
-    found += at[:, None]
-    np.maximum(found, -1, out=found)
-    np.minimum(found, side - 2.01, out=found)  # not .001: at 10,000 px single precision tells .001 apart
-    return found.astype(np.float32)
