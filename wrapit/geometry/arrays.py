@@ -41,7 +41,10 @@ def unit(vector: FloatArray) -> FloatArray:
         norm = norms(vector)[..., None]
     else:
         norm = np.sqrt(np.add.reduce(vector * vector, axis=-1, keepdims=True))
-    return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=norm > 0)
+    some = norm > 0
+    if some.all():
+        return np.asarray(vector / norm)
+    return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=some)
 
 
 def median(values: FloatArray) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
-from wrapit.geometry import FloatArray, unit
+from wrapit.geometry import FloatArray, IntArray, unit
 from wrapit.geometry.arrays import median
 from wrapit.geometry.polyline import at_lengths, lengths
 
@@ -96,8 +96,8 @@ def centre_lines(
     for fineness, inside in ((8, 0.0), (14, _INSIDE)):
         paths = [smoothed(path, sigma, loop) for path, loop in zip(paths, loops, strict=True)]
         points = np.concatenate(paths)
-        bounds = np.cumsum([len(path) for path in paths])[:-1]
-        normals = np.concatenate([_normals(path, loop) for path, loop in zip(paths, loops, strict=True)])
+        stops = np.cumsum([len(path) for path in paths])
+        bounds, normals = stops[:-1], _normals(points, stops, np.array(loops)[:, None])
         left, right = edges(
             ink, points, normals, _REACH * width_px, max(0.5, width_px / fineness), inside=inside * width_px
         )
@@ -164,13 +164,15 @@ def smoothed(path: FloatArray, sigma: float, loop: bool) -> FloatArray:
     return np.vstack([smooth, smooth[:1]]) if loop else smooth
 
 
-def _normals(path: FloatArray, loop: bool) -> FloatArray:
-    padded = (
-        np.vstack([path[-2:-1], path, path[1:2]])
-        if loop
-        else np.vstack([2 * path[:1] - path[1:2], path, 2 * path[-1:] - path[-2:-1]])
-    )
-    tangent = unit(padded[2:] - padded[:-2])
+def _normals(points: FloatArray, stops: IntArray, loops: NDArray[np.bool_]) -> FloatArray:
+    """The unit normals of lines whose points (n, 2) end before `stops` (m,); some are `loops` (m, 1)."""
+    first, last = np.concatenate([[0], stops[:-1]]), stops - 1
+    second, next_to_last = points[first + 1], points[last - 1]
+    course = np.empty_like(points)
+    course[1:-1] = points[2:] - points[:-2]
+    course[first] = second - np.where(loops, next_to_last, 2 * points[first] - second)
+    course[last] = np.where(loops, second, 2 * points[last] - next_to_last) - next_to_last
+    tangent = unit(course)
     normals = np.empty_like(tangent)
     np.negative(tangent[:, 1], out=normals[:, 0])
     normals[:, 1] = tangent[:, 0]
