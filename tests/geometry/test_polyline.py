@@ -8,7 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.geometry.shapes import Motion, mirrorings, motions, points
-from wrapit.geometry.polyline import at_lengths, evenly, lengths, signed_area, steps, total_length
+from wrapit.geometry.arrays import median
+from wrapit.geometry.polyline import (
+    at_lengths,
+    evenly,
+    lengths,
+    signed_area,
+    slopes,
+    steps,
+    total_length,
+)
 
 chains = st.lists(points, min_size=3, max_size=12, unique=True).map(lambda found: np.array(found, float))
 
@@ -48,3 +57,13 @@ def test_the_area_is_signed(chain: np.ndarray, motion: Motion, mirroring: Motion
     assert signed_area(motion.of(chain)) == pytest.approx(area, abs=1e-9)
     assert signed_area(mirroring.of(chain)) == pytest.approx(-area, abs=1e-9)
     assert signed_area(chain[::-1]) == pytest.approx(-area, abs=1e-9)
+
+
+@given(chains)
+def test_slopes_are_central_differences(chain: np.ndarray) -> None:
+    assert np.array_equal(slopes(chain), np.gradient(chain, axis=0))
+
+
+@given(st.lists(st.floats(-1e9, 1e9) | st.just(float("nan")), min_size=1, max_size=12).map(np.array))
+def test_medians_are_those_of_numpy(values: np.ndarray) -> None:
+    assert np.array_equal(median(values), np.median(values), equal_nan=True)

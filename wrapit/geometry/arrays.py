@@ -41,7 +41,22 @@ def unit(vector: FloatArray) -> FloatArray:
         norm = norms(vector)[..., None]
     else:
         norm = np.sqrt(np.add.reduce(vector * vector, axis=-1, keepdims=True))
-    return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=norm > 0)
+    some = norm > 0
+    if some.all():
+        return np.asarray(vector / norm)
+    return np.divide(vector, norm, out=np.zeros_like(vector, dtype=np.float64), where=some)
+
+
+def median(values: FloatArray) -> float:
+    """The median of values (n,), nan where one of them is, in a fraction of the time of numpy's own.
+
+    >>> median(np.array([4.0, 1.0, 2.0, 9.0]))
+    3.0
+    """
+    ordered = np.sort(values)
+    low, high = ordered[[(len(ordered) - 1) // 2, len(ordered) // 2]].tolist()
+    last = float(ordered[-1])
+    return last if math.isnan(last) else float(low + high) / 2
 
 
 def runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -44,6 +44,19 @@ def at_lengths(points: FloatArray, along: FloatArray, at: FloatArray) -> FloatAr
     return found
 
 
+def slopes(points: FloatArray) -> FloatArray:
+    """How points (n, 2) change from one to the next, in the middle of both its neighbours (n, 2).
+
+    >>> slopes(np.array([(0.0, 0.0), (1.0, 0.0), (4.0, 2.0)])).tolist()
+    [[1.0, 0.0], [2.0, 1.0], [3.0, 2.0]]
+    """
+    found = np.empty_like(points)
+    np.subtract(points[2:], points[:-2], out=found[1:-1])
+    found[1:-1] /= 2.0
+    found[0], found[-1] = points[1] - points[0], points[-1] - points[-2]
+    return found
+
+
 def evenly(points: FloatArray, count: int) -> FloatArray:
     """`count` points at even lengths from end to end of a chain (n, 2).
 

@@ -9,8 +9,9 @@ import numpy as np
 
 from wrapit.geometry import FloatArray, unit
 
-# Made once, as polynomials are many and short.
-_EXPONENTS = np.arange(16)[:, None]
+# Made once, as polynomials are many and short: beside an array a number takes twice as long as an array.
+_REGULAR = np.array(1e-12)
+_EXPONENTS = np.arange(16.0)[:, None]
 
 
 def horner(terms: list[list[float]], along: float) -> tuple[float, float, float, float]:
@@ -43,9 +44,10 @@ def polynomial(along: FloatArray, points: FloatArray, degree: int) -> FloatArray
     for k in range(1, degree):
         np.multiply(powers[k], share, out=powers[k + 1])
     normal = powers @ powers.T
-    normal.ravel()[:: degree + 2] += 1e-12
+    normal.ravel()[:: degree + 2] += _REGULAR
     solution = np.linalg.solve(normal, powers @ points)
-    return solution / scale ** _EXPONENTS[: degree + 1]
+    solution /= np.power(scale, _EXPONENTS[: degree + 1])
+    return np.asarray(solution)
 
 
 def crossing(

@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
-from scipy.ndimage import maximum_filter, minimum_filter
+from scipy.ndimage import maximum_filter, minimum_filter, zoom
 
 from tests.drawing.generated import random_curve, render
 from wrapit.drawing.bitmap import centre_lines
+from wrapit.drawing.bitmap.corners import edge_fit
 from wrapit.drawing.bitmap.hard_edges.slits import _closed, _surrounded
 from wrapit.drawing.bitmap.image import count_levels
-from wrapit.drawing.bitmap.ink import find_ink
+from wrapit.drawing.bitmap.ink import _enlarged, find_ink
 from wrapit.drawing.bitmap.page.cells import _median
 from wrapit.drawing.bitmap.page.extremes import highest, lowest
 
@@ -82,3 +83,34 @@ def test_edges_in_two_looks_are_those_in_one(monkeypatch):
     assert np.isfinite(looks[0]).any()
     assert np.isnan(looks[0]).any()
     assert np.array_equal(*looks, equal_nan=True)
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.floats(0.01, 30),
+    st.sampled_from(["walk", "crossed", "still"]),
+    st.integers(1, 200),
+)
+def test_far_sides_are_no_points_nearest(seed, spread, kind, count):
+    random = np.random.default_rng(seed)
+    steps = random.normal(size=(60, 2)) * (10 if kind == "crossed" else 1)
+    steps[10:14] *= kind != "still"  # sides of no length
+    chain = np.cumsum(steps, axis=0)
+    edge = chain[random.integers(60, size=count)] + random.normal(size=(count, 2)) * spread
+    plain = edge_fit.missed(chain, edge, 3.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(edge_fit, "_WORTH_PARTING", 0)
+        patch.setattr(edge_fit, "_AT_ONCE", 7)
+        quick = edge_fit.missed(chain, edge, 3.0)
+    for part in ("side", "share", "outside", "away"):
+        assert np.array_equal(getattr(quick, part), getattr(plain, part))
+
+
+@given(
+    arrays(np.float32, array_shapes(min_dims=2, max_dims=2, max_side=6), elements=st.integers(0, 255)),
+    st.integers(0, 15),
+)
+def test_blocks_are_enlarged_as_a_zoom_does(blocks, cut):
+    height, width = (16 * side - cut for side in blocks.shape)
+    full = zoom(blocks / 3, 16, order=1, mode="nearest", grid_mode=True)[:height, :width]
+    assert np.array_equal(_enlarged(blocks / 3, (height, width)), full)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.image import GreyImage, count_levels
+from wrapit.drawing.bitmap.image import GreyImage, bands_of, count_levels
 from wrapit.errors import DrawingError
 
 # When is paper shaded? Where its background varies by more than this share of the contrast: it is divided
@@ -137,7 +137,7 @@ def _medians(histogram: NDArray[np.int64], threshold: int) -> tuple[int, int]:
 
 def _background(grey: GreyImage) -> tuple[NDArray[np.float32], bool]:
     """The paper without the ink, and whether it is uneven (shadows, a fold, a lamp)."""
-    from scipy.ndimage import gaussian_filter, maximum_filter, zoom
+    from scipy.ndimage import gaussian_filter, maximum_filter
 
     height, width = grey.shape
     rows, columns = -(-height // _BLOCK_PX), -(-width // _BLOCK_PX)
@@ -149,5 +149,32 @@ def _background(grey: GreyImage) -> tuple[NDArray[np.float32], bool]:
     spread = float(coarse.max() - coarse.min())
     if spread <= _SHADED * max(float(coarse.max()) - float(grey.min()), 1.0):
         return coarse, False
-    full = zoom(coarse, _BLOCK_PX, order=1, mode="nearest", grid_mode=True)[:height, :width]
-    return full, True
+    return _enlarged(coarse, (height, width)), True
+
+
+def _enlarged(blocks: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Levels (h, w) between the middles of blocks, linear in both directions, and even beyond the last.
+
+    In double precision all is exact but the last step, so that it doesn't matter in what order it is summed.
+    """
+    (above, down), (left, right) = (
+        _between(count, side) for count, side in zip(blocks.shape, shape, strict=True)
+    )
+    exact = blocks.astype(np.float64)
+    full = np.empty(shape, dtype=np.float32)
+    for rows in bands_of(shape):
+        share = down[rows, None]
+        part = (1 - share) * exact[above[rows]] + share * exact[np.minimum(above[rows] + 1, len(blocks) - 1)]
+        step = np.diff(part, axis=1, append=part[:, -1:])
+        band = step.take(left, axis=1)
+        band *= right
+        band += part.take(left, axis=1)
+        full[rows] = band
+    return full
+
+
+def _between(count: int, side: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """The block before each pixel of a side, and how far on it lies to the next one, in blocks."""
+    at = np.clip((np.arange(side) + 0.5) / _BLOCK_PX - 0.5, 0, count - 1)
+    before = at.astype(np.intp)
+    return before, at - before

@@ -13,7 +13,8 @@ from wrapit.drawing.bitmap.corners.edge_fit import chain_of, missed
 from wrapit.drawing.bitmap.corners.turning import LONGEST
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.geometry import FloatArray, unit
-from wrapit.geometry.polyline import lengths
+from wrapit.geometry.arrays import median
+from wrapit.geometry.polyline import lengths, slopes
 
 # In stroke widths, measured on the chains named in `edge_fit.py`.
 # When does the middle line explain the ink, so that no corners need be looked for? Where nine points in ten
@@ -61,7 +62,7 @@ def stretch_of(line: Line, first: int, last: int, longest: float) -> tuple[Float
     """
     if last - first < _FEWEST:
         return None
-    width_px = float(np.median(line.width[first : last + 1][line.clean[first : last + 1]]))
+    width_px = median(line.width[first : last + 1][line.clean[first : last + 1]])
     if line.along[last] - line.along[first] > longest * width_px:
         return None
     return line.points[first : last + 1], width_px
@@ -104,7 +105,7 @@ def edge_points(ink: Ink, middle: FloatArray, width_px: float) -> FloatArray:
 
 def edges_from(ink: Ink, middle: FloatArray, width_px: float) -> tuple[FloatArray, NDArray[np.intp]]:
     """Points (n, 2) of the ink's edges seen from a line, and the point of the line (n,) each is seen from."""
-    course = unit(np.gradient(middle, axis=0))
+    course = unit(slopes(middle))
     normal = np.column_stack([-course[:, 1], course[:, 0]])
     # Every other point tells as much.
     at = np.arange(0, len(middle), 2)

@@ -59,7 +59,7 @@ def find_cap(start: FloatArray, ahead: FloatArray, width_px: float, ink: Ink) ->
 
 def _ends(starts: FloatArray, ahead: FloatArray, steps: FloatArray, ink: Ink) -> NDArray[np.float64]:
     """How far ahead of each point (n, 2) the ink (or the picture) ends; nan where it doesn't."""
-    levels = sample(ink, starts, np.broadcast_to(ahead, starts.shape), steps) - ink.half
+    levels = sample(ink, starts, np.repeat(ahead[None], len(starts), axis=0), steps) - ink.half
     light = levels > 0
     at = np.argmax(light, axis=1)
     rows = np.arange(len(starts))

@@ -16,6 +16,8 @@ from wrapit.drawing.bitmap.centre_lines import edges
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, IntArray, unit
+from wrapit.geometry.arrays import median
+from wrapit.geometry.polyline import slopes
 from wrapit.geometry.polynomials import angle
 
 # Measured on lines and arcs (radius 2 widths and more) of 4 to 20 px that end on such, at nine angles.
@@ -137,9 +139,10 @@ def _shared_ink(stem: Arm, other: Arm, one: Arm, ink: Ink) -> _SharedInk | None:
         across = -across
     left, right = edges(ink, on, across, _REACH * width, max(0.25, width / 24))
     widths = (left + right)[:behind]
-    if np.isfinite(widths).sum() < max(_FEWEST, behind / 2):
+    known = np.isfinite(widths)
+    if np.count_nonzero(known) < max(_FEWEST, behind / 2):
         return None
-    broad = float(np.nanmedian(widths))
+    broad = median(widths[known])
     course = on - (np.where(np.isfinite(left), left, broad / 2) - broad / 2)[:, None] * across
     until = behind + _until_parted(right[behind:], broad)
     edge = on[:until] + right[:until, None] * across[:until]
@@ -160,7 +163,7 @@ def _along(arc: _Arc, shared: _SharedInk, at: float) -> tuple[FloatArray, FloatA
 def _inside(edge: FloatArray, across: FloatArray, far: float) -> FloatArray:
     """The centres (n, 2) that run `far` inside an edge (n, 2), away from where `across` points."""
     even = np.column_stack([_smooth(edge[:, k]) for k in (0, 1)])
-    along = unit(np.gradient(even, axis=0))
+    along = unit(slopes(even))
     normal = np.column_stack([-along[:, 1], along[:, 0]])
     normal *= np.sign((normal * across).sum(axis=1))[:, None]
     return edge - far * normal
@@ -185,7 +188,8 @@ def _until_parted(outer: FloatArray, broad: float) -> int:
 def _smooth(values: FloatArray) -> FloatArray:
     """Means of five neighbours."""
     kernel = np.ones(5) / 5
-    return np.convolve(np.pad(values, 2, mode="edge"), kernel, mode="valid")
+    padded = np.concatenate([values[:1], values[:1], values, values[-1:], values[-1:]])
+    return np.convolve(padded, kernel, mode="valid")
 
 
 @dataclass(frozen=True, eq=False)

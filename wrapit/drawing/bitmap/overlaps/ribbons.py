@@ -20,7 +20,8 @@ from wrapit.drawing.bitmap.overlaps.ribbon_axis import RibbonAxis, axis_of, even
 from wrapit.drawing.bitmap.overlaps.swaps import swaps_of
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
-from wrapit.geometry.polyline import lengths
+from wrapit.geometry.arrays import median
+from wrapit.geometry.polyline import lengths, slopes
 from wrapit.geometry.polynomials import angle
 
 # All in stroke widths. Each was varied by 30 % on 48 generated overlaps (crossings at 10 to 20 degrees,
@@ -95,7 +96,7 @@ def _explained(
     tails = tails[1], tails[0]
     widths = _widths(lines, [*heads, *tails], width_px)
     known_widths = np.concatenate(widths)
-    usual = float(np.median(known_widths)) if len(known_widths) >= 6 else width_px
+    usual = median(known_widths) if len(known_widths) >= 6 else width_px
     before, after = (between(pair_, usual) for pair_ in (heads, tails))
     axis = even([before[::-1], way.points, after], usual)
     along = lengths(axis)
@@ -135,7 +136,7 @@ def measured(
     # The first pass only finds the middle.
     for _ in range(2):
         axis = smoothed(axis, _AXIS * width_px / step, False)
-        tangent = unit(np.gradient(axis, axis=0))
+        tangent = unit(slopes(axis))
         normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
         right, left = edges(ink, axis, normal, _REACH * width_px, width_px / 14, bridged=_BRIDGED * width_px)
         known = np.isfinite(left) & np.isfinite(right)

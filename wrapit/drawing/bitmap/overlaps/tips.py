@@ -20,6 +20,7 @@ from wrapit.drawing.bitmap.overlaps.ribbons import between, measured
 from wrapit.drawing.bitmap.overlaps.separate import lead_to
 from wrapit.drawing.bitmap.strand_graph import StrandEnd, StrandGraph
 from wrapit.geometry import FloatArray, unit
+from wrapit.geometry.arrays import median
 from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle, crossing, polynomial
 
@@ -132,7 +133,7 @@ def _open(
 def _own_width(arms: tuple[Arm, Arm], lines: dict[int, Line], width_px: float) -> float:
     """The width of the strokes at a tip where both have one, and it is like the picture's; else that."""
     broad = [
-        float(np.median(line.width[line.clean])) if line.clean.any() else width_px
+        median(line.width[line.clean]) if line.clean.any() else width_px
         for line in (lines[each.strand] for each in arms)
     ]
     mean = sum(broad) / 2
