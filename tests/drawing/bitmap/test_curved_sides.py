@@ -96,7 +96,7 @@ def test_two_close_bends_between_arcs_are_no_corners(traced, side, turns, radius
 
 
 def scallops(radius: float, turn_degrees: float, count: int, width: float) -> tuple[Points, Points]:
-    """Arcs side by side, as around a cloud, and the cusps between them, where the line turns the other way."""
+    """Arcs side by side, as around a cloud, and cusps between them, where the line turns the other way."""
     half = math.radians(turn_degrees) / 2
     angles, chord = np.linspace(-half, half, 60), 2 * radius * math.sin(half)
     arcs = [
