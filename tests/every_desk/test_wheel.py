@@ -158,6 +158,6 @@ def test_the_command_alone_makes_a_piece(program: Path, tmp_path: Path) -> None:
     assert run(program, "--version", cwd=folder, PYTHONPATH="") == f"wrapit {__version__}\n"
     assert '"$schema"' in run(program, "schema", cwd=folder, PYTHONPATH="")
     run(program, "init", f"{NAME}.svg", cwd=folder, PYTHONPATH="")
-    run(program, "build", f"{NAME}.yaml", "--set", "size=20 mm", cwd=folder, PYTHONPATH="")
+    run(program, "build", f"{NAME}.yaml", cwd=folder, PYTHONPATH="")
     made = {path.name for path in (folder / "build" / NAME).iterdir()}
     assert made >= {"report.json", "guide.html", "guide.pdf", "jig.3mf", "jig.step", "wires.step", "view.png"}
