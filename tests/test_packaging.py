@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.metadata
 import itertools
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -36,22 +38,33 @@ def test_the_lock_holds_every_dependency() -> None:
     assert names - locked == set()
 
 
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Runs an example, by its name, once; returns the folder that it wrote to."""
+
+    @functools.cache
+    def run(name: str) -> Path:
+        folder = tmp_path_factory.mktemp(name)
+        # Of the gallery's pictures one is enough: the pieces themselves are built by other tests.
+        names = ["butterfly"] if name == "pictures" else []
+        command = [sys.executable, str(ROOT / "examples" / f"{name}.py"), str(folder), *names]
+        told = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False, cwd=folder)
+        assert told.returncode == 0, told.stderr
+        return folder
+
+    return run
+
+
 @pytest.mark.usefixtures("recalling")
-def test_examples_run(tmp_path: Path) -> None:
+def test_examples_run(ran: Callable[[str], Path]) -> None:
     examples = sorted((ROOT / "examples").glob("*.py"))
     assert examples
     for example in examples:
-        # Of the gallery's pictures one is enough: the pieces themselves are built by other tests.
-        names = ["butterfly"] if example.stem == "pictures" else []
-        command = [sys.executable, str(example), str(tmp_path), *names]
-        run = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False, cwd=tmp_path)
-        assert run.returncode == 0, run.stderr
+        ran(example.stem)
 
 
-def test_drawings_are_what_their_sources_render_to(tmp_path: Path) -> None:
-    command = [sys.executable, str(ROOT / "examples" / "ink.py"), str(tmp_path)]
-    subprocess.run(command, check=True, capture_output=True)
-    rendered = sorted(tmp_path.glob("*.png"))
+def test_drawings_are_what_their_sources_render_to(ran: Callable[[str], Path]) -> None:
+    rendered = sorted(ran("ink").glob("*.png"))
     assert len(rendered) >= 3
     for path in rendered:
         import numpy as np
