@@ -33,6 +33,8 @@ _CURVED_CORNER = 0.22
 # How far from the middle line is a corner between arcs? Inside of the ink. (With 0.7, of 288 rows of arcs 158
 # come out right instead of 171.)
 _INSIDE = 0.5
+# How far around what two ways to tell corners differ in are they compared? (Not varied.)
+_AROUND = 1.0
 
 
 def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -> list[Corner]:
@@ -60,13 +62,27 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     found = [_in_order(known, apart) for known in told]
     if len(found) == 1:
         return found[0]
-    return min(found, key=lambda corners: _missed(line, ink, width_px, limits, corners))
+    first, last = _differing(line, width_px, *found)
+    return min(found, key=lambda corners: _missed(line, ink, width_px, (first, last), corners))
+
+
+def _differing(line: Line, width_px: float, one: list[Corner], other: list[Corner]) -> tuple[int, int]:
+    """First and last point of a stretch of a line in which are all corners that only one of two lists has."""
+    known = [
+        {(corner.before, corner.after, corner.points.tobytes()) for corner in each} for each in (one, other)
+    ]
+    lone = known[0] ^ known[1]
+    around = round(_AROUND * width_px * (len(line.points) - 1) / line.length)
+    first = min((before for before, _, _ in lone), default=0) - around
+    return max(first, 0), min(max((after for _, after, _ in lone), default=0) + around, len(line.points) - 1)
 
 
 def _missed(line: Line, ink: Ink, width_px: float, limits: tuple[int, int], corners: list[Corner]) -> float:
     """By how much a line with some corners misses the ink's edges (root mean square, in stroke widths)."""
     parts, start = [], limits[0]
     for corner in corners:
+        if corner.after < limits[0] or corner.before > limits[1]:
+            continue
         parts += [line.points[start : corner.before]]
         parts += [side.points for side in (corner.side,) if side is not None]
         parts += [corner.points]
