@@ -58,3 +58,17 @@ def arc(radius: float, half_angle: float, offset: float) -> Points:
     """An arc that bulges upwards around the middle of its chord, `offset` below the centre at its top."""
     a = np.linspace(-half_angle, half_angle, 120)
     return CENTRE + np.column_stack([radius * np.sin(a), offset + radius * (1 - np.cos(a))])
+
+
+def scallops(radius: float, turn_degrees: float, count: int, width: float) -> tuple[Points, Points]:
+    """Arcs side by side, as around a cloud, and the cusps between them."""
+    half = math.radians(turn_degrees) / 2
+    angles, chord = np.linspace(-half, half, 60), 2 * radius * math.sin(half)
+    arcs = [
+        np.column_stack([k * chord + radius * np.sin(angles), -radius * np.cos(angles)])[k > 0 :]
+        for k in range(count)
+    ]
+    points = np.vstack(arcs) * width
+    shift = CENTRE - (points.min(axis=0) + points.max(axis=0)) / 2
+    cusps = [((k + 0.5) * chord, -radius * math.cos(half)) for k in range(count - 1)]
+    return points + shift, np.array(cusps) * width + shift

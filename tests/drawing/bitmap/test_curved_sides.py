@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.drawing.bitmap.figures import CENTRE, TURNS, few, in_pixels, turned
+from tests.drawing.bitmap.figures import CENTRE, TURNS, few, in_pixels, scallops, turned
 from tests.drawing.bitmap.test_short_sides import outline
 from tests.drawing.generated import Points, degrees
 from wrapit.drawing.bitmap.corners.curved_sides import Curves, curves_of, fitted_curves
@@ -93,20 +93,6 @@ def test_two_close_bends_between_arcs_are_no_corners(traced, side, turns, radius
     points, _ = hook(side, turns, radius, width)
     drawing, _ = traced([turned(points, turn)], width)
     assert degrees(drawing) == [1, 1]
-
-
-def scallops(radius: float, turn_degrees: float, count: int, width: float) -> tuple[Points, Points]:
-    """Arcs side by side, as around a cloud, and the cusps between them."""
-    half = math.radians(turn_degrees) / 2
-    angles, chord = np.linspace(-half, half, 60), 2 * radius * math.sin(half)
-    arcs = [
-        np.column_stack([k * chord + radius * np.sin(angles), -radius * np.cos(angles)])[k > 0 :]
-        for k in range(count)
-    ]
-    points = np.vstack(arcs) * width
-    shift = CENTRE - (points.min(axis=0) + points.max(axis=0)) / 2
-    cusps = [((k + 0.5) * chord, -radius * math.cos(half)) for k in range(count - 1)]
-    return points + shift, np.array(cusps) * width + shift
 
 
 @few

@@ -21,8 +21,7 @@ _PROBE = 1.7
 _CLOSE_NEAR = 0.35
 _CLOSE_PROBE = 0.9
 # How far beside a corner do its sides turn as they do? Where the corner itself is hardly seen. Of 288 rows of
-# three cusps between arcs (radius 1.2 to 4, turns of 68 to 110 degrees, 5 to 18 px wide) 182 come out right,
-# with 1.5 fewer; without all this 57.
+# three cusps (`tests.bench cusps`) 188 come out right, with 1.5 fewer; without all this 53.
 _BESIDE = 1.1
 # How far is its echo? There the arcs turn otherwise than the corner beside them. With 1.5 a bend of a worm is
 # a corner.
