@@ -100,8 +100,9 @@ def scanned(rng: np.random.Generator, grey: np.ndarray) -> np.ndarray:
     return np.clip(soft, 0, 255).astype(np.uint8)
 
 
-def main(count: int = 40) -> None:
-    """Prints the share of crossings with the right degree for each range of angles."""
+def main(words: list[str] | None = None) -> None:
+    """Prints the share of crossings with the right degree by angle; of 40 drawings, or as many as asked."""
+    count = int(words[0]) if words else 40
     print("random closed curves")
     usual = tangles(shallow=False)
     _measure([next(usual) for _ in range(count)])

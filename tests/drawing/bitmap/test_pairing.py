@@ -16,11 +16,16 @@ from tests.drawing.bitmap.figures import (
     TURNS,
     WIDTHS,
     few,
+    in_pixels,
     junction_near,
     line,
     turned,
 )
 from tests.drawing.generated import degrees
+from wrapit.drawing.bitmap.arms import Arm
+from wrapit.drawing.bitmap.endings import place
+from wrapit.drawing.bitmap.image import count_levels
+from wrapit.drawing.bitmap.ink import Ink
 
 
 @few
@@ -40,6 +45,37 @@ def test_a_stroke_that_ends_on_another_makes_a_t(traced, angle, width, turn, shi
     drawing, _ = traced([turned(ACROSS, turn, shift), turned(stem, turn, shift)], width)
     assert degrees(drawing) == [1, 1, 1, 3]
     assert np.linalg.norm(junction_near(drawing, 3) - CENTRE - np.array(shift)) < 0.15 * width
+
+
+@few
+@given(st.floats(1.7, 2.4), st.floats(1.7, 2.4), st.floats(7, 14), TURNS)
+def test_two_posts_between_two_bars_are_four_joints(traced, high, apart, width, turn):
+    """Strokes could cross smoothly along each post; but each is as broad as one stroke."""
+    half, tall, reach = apart * width / 2, high * width, 5 * width
+    bars = [line((CENTRE - reach, y), (CENTRE + reach, y)) for y in (CENTRE, CENTRE + tall)]
+    posts = [line((CENTRE + x, CENTRE), (CENTRE + x, CENTRE + tall)) for x in (-half, half)]
+    drawing, _ = traced([turned(stroke, turn) for stroke in (*bars, *posts)], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 3, 3, 3, 3]
+    joints = turned(np.concatenate(posts), turn)
+    found = np.array([in_pixels(drawing, junction.point) for junction in drawing.junctions])
+    assert np.linalg.norm(found[:, None] - joints, axis=2).min(axis=0).max() < 0.3 * width
+
+
+@given(st.floats(0.3, 3), st.floats(-1e-3, 1e-3), st.floats(5, 20))
+def test_parallel_strokes_meet_near_their_skeleton_s_place(apart, askew, width):
+    """Where four arms run side by side, as no drawing of one pen has them, no point is where they meet."""
+    along = np.arange(width, 5 * width, width / 8)
+    rise = askew * along
+    arms = [
+        Arm(2 * k + (sign < 0), 0, 0, np.column_stack([sign * along, y + sign * rise * (1 - 2 * k)]), width)
+        for k, y in enumerate((0.0, apart * width))
+        for sign in (1, -1)
+    ]
+    around = np.array([0.0, apart * width / 2])
+    blank = np.zeros((4, 4), dtype=np.uint8)
+    ink = Ink(blank == 0, blank, 255.0, 0.0, False, count_levels(blank))
+    point, _ = place(arms, around, [(0, 1), (2, 3)], ink)
+    assert np.linalg.norm(point - around) < 4 * width
 
 
 @few

@@ -68,6 +68,9 @@ def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: f
     if best is None:
         return None
     cost, turns, curves, pairs, crossed, together = best
+    # A bar between two joints is as broad as one stroke, however smoothly other strokes would cross there.
+    if seen and crossed > together:
+        return None
     seen = seen and crossed < _MISFIT and crossed < _BETTER * together
     crossings = _crossings(curves[0], curves[1], width_px)
     if len(crossings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
