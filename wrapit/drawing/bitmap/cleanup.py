@@ -24,6 +24,9 @@ _SPUR = 1.4
 # of which leaves to the side: at less than 120 degrees from it (minus the cosine), unlike at acute tips.
 _STUB = 0.3
 _FULL = (0.42, 0.58)
+# How far is the edge of the ink where a bar lies on a post? 0.63, up to 0.72 aslant or in few pixels; at the
+# tips of arrows, which have stems as well, 0.86.
+_FORK = 0.78
 _BEYOND = 0.8
 _ASIDE = -0.5
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
@@ -109,6 +112,8 @@ def _is_stub(graph: StrandGraph, strand: int, node: int, radius: Radii, width_px
     at = graph.nodes[node]
     length, broad = float(np.linalg.norm(tip - at)), radius(tip)
     if length < _STUB * width_px or not _FULL[0] < broad / width_px < _FULL[1]:
+        return False
+    if radius(at) > _FORK * width_px:
         return False
     outwards = (tip - at) / length
     out = tip + broad * outwards

@@ -71,10 +71,10 @@ def _differing(line: Line, width_px: float, one: list[Corner], other: list[Corne
     known = [
         {(corner.before, corner.after, corner.points.tobytes()) for corner in each} for each in (one, other)
     ]
-    lone = known[0] ^ known[1]
+    lone = known[0] ^ known[1] or known[0]
     around = round(_AROUND * width_px * (len(line.points) - 1) / line.length)
-    first = min((before for before, _, _ in lone), default=0) - around
-    return max(first, 0), min(max((after for _, after, _ in lone), default=0) + around, len(line.points) - 1)
+    first = min(before for before, _, _ in lone) - around
+    return max(first, 0), min(max(after for _, after, _ in lone) + around, len(line.points) - 1)
 
 
 def _missed(line: Line, ink: Ink, width_px: float, limits: tuple[int, int], corners: list[Corner]) -> float:
