@@ -30,8 +30,8 @@ _CROWD = 5000
 # What has filled shapes? Ink thicker than this share of the drawing, unless it has many strands, or this
 # share of the ink in places this many times as wide as usual. A thick pen may be broader, if it is as broad
 # all over: the middle nine tenths of the widths lie within 0.45 of the median, and a part of a pixel, on 44
-# icons of lines thicker than 0.12 of themselves (arrows, chevrons, ticks, letters), 0.64 on arrows with filled
-# heads, 0.9 and more on filled lenses. Of 25 solid icons so thick ten are read; all but an eye are of lines.
+# icons of lines thicker than 0.12 of themselves (arrows, chevrons, ticks), 0.64 on arrows with filled heads,
+# 0.9 and more on filled lenses. Of 25 solid icons so thick ten are read; all but an eye are of lines.
 _THICK_SHARE = 0.12
 _THICK_PEN = 0.2
 _EVEN_PEN = 0.46
