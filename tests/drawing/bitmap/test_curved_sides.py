@@ -96,7 +96,7 @@ def test_two_close_bends_between_arcs_are_no_corners(traced, side, turns, radius
 
 
 @few
-# (Of tighter arcs one cusp in four is lost, and of those that turn by 68 degrees one in three.)
+# (Of tighter arcs and gentler cusps more are lost: see `tests.bench cusps`.)
 @given(st.floats(2.4, 4.5), st.floats(88, 115), st.floats(6, 12), TURNS)
 def test_cusps_between_arcs_are_corners(traced, radius, turn_degrees, width, turn):
     points, cusps = scallops(radius, turn_degrees, 3, width)

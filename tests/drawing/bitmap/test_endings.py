@@ -74,7 +74,7 @@ def test_an_end_that_bends_one_way_and_back_is_where_its_ink_ends(traced, radius
 
 
 @few
-# (Of those that stick out by 0.6 one in five is lost: they look like a corner's tip.)
+# (Of shorter ones some are lost, as they look like a corner's tip: see `tests.bench cusps`.)
 @given(st.floats(1.05, 2), st.floats(60, 90), st.floats(6, 16), TURNS)
 def test_the_short_end_of_a_bar_beyond_a_post_is_seen(traced, out, angle, width, turn):
     side, rad = 9 * width, math.radians(angle)

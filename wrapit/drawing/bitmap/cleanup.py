@@ -24,11 +24,11 @@ _SPUR = 1.4
 # of which leaves to the side: at less than 120 degrees from it (minus the cosine), unlike at acute tips.
 _STUB = 0.3
 _FULL = (0.42, 0.58)
+_BEYOND = 0.8
+_ASIDE = -0.5
 # How far is the edge of the ink where a bar lies on a post? 0.63, up to 0.72 aslant or in few pixels; at the
 # tips of arrows, which have stems as well, 0.86.
 _FORK = 0.78
-_BEYOND = 0.8
-_ASIDE = -0.5
 # What is a fork into the corners of a flat end? Its twigs are 0.71 of the width long, 1.41 half widths, and a
 # pixel or two more or less; those of a drawn fork are longer, or have paper between their tips. And they run
 # out into the corners: at five sixths of their length the ink is a third as broad as halfway, that of a short

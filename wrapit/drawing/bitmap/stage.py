@@ -267,7 +267,7 @@ def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: En
     # A point every quarter of the width tells a curve as well as one every eighth.
     if len(middle) > 32:
         told = np.arange(len(middle)) % 2 == 0
-        # A gentle corner's own points have no width; without its apex a curve cuts it by a third of a width.
+        # A gentle corner's own points have no width; without its apex a curve cuts it by 0.4 widths.
         told |= np.isnan(line.width[inner][keep])
         middle = middle[told]
     points = np.vstack(

@@ -22,7 +22,7 @@ from wrapit.drawing.bitmap.corners.short_sides import chain_between, edge_points
 from wrapit.drawing.bitmap.corners.turning import SEEN_RAD, crowds, kinks, parted, tops, turning
 from wrapit.drawing.bitmap.corners.unexplained import CurvedChain, chain_around, curved_chains
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.geometry import unit
+from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polynomials import angle
 
 # In stroke widths.
@@ -30,8 +30,8 @@ from wrapit.geometry.polynomials import angle
 # of 0.4 that turn by 145 degrees read as 0.24 and 0.3, true corners as 0.14 at most. On 80 strokes with two
 # bends of 0.45 to 1 and as many with corners a third changes nothing.
 _CURVED_CORNER = 0.22
-# How far from the middle line is a corner between arcs? Inside of the ink. (With 0.7, of 288 rows of arcs 158
-# come out right instead of 171.)
+# How far from the middle line is a corner between arcs? Inside of the ink. (With 0.7 fewer rows
+# of arcs come out right.)
 _INSIDE = 0.5
 # How far around what two ways to tell corners differ in are they compared? (Not varied.)
 _AROUND = 1.0
@@ -63,7 +63,8 @@ def find_corners(line: Line, ink: Ink, width_px: float, first: int, last: int) -
     if len(found) == 1:
         return found[0]
     first, last = _differing(line, width_px, *found)
-    return min(found, key=lambda corners: _missed(line, ink, width_px, (first, last), corners))
+    edge = edge_points(ink, line.points[first : last + 1], width_px)
+    return min(found, key=lambda corners: missed(_course(line, first, last, corners), edge, width_px).rms)
 
 
 def _differing(line: Line, width_px: float, one: list[Corner], other: list[Corner]) -> tuple[int, int]:
@@ -77,20 +78,18 @@ def _differing(line: Line, width_px: float, one: list[Corner], other: list[Corne
     return max(first, 0), min(max(after for _, after, _ in lone) + around, len(line.points) - 1)
 
 
-def _missed(line: Line, ink: Ink, width_px: float, limits: tuple[int, int], corners: list[Corner]) -> float:
-    """By how much a line with some corners misses the ink's edges (root mean square, in stroke widths)."""
-    parts, start = [], limits[0]
+def _course(line: Line, first: int, last: int, corners: list[Corner]) -> FloatArray:
+    """A stretch of a line (n, 2) with some corners, and the sides between them, instead of its own points."""
+    parts, start = [], first
     for corner in corners:
-        if corner.after < limits[0] or corner.before > limits[1]:
+        if corner.after < first or corner.before > last:
             continue
         parts += [line.points[start : corner.before]]
         parts += [side.points for side in (corner.side,) if side is not None]
         parts += [corner.points]
         parts += [side.points for side in (corner.last_side,) if side is not None]
         start = corner.after
-    course = np.concatenate([*parts, line.points[start : limits[1] + 1]])
-    edge = edge_points(ink, line.points[limits[0] : limits[1] + 1], width_px)
-    return missed(course, edge, width_px).rms
+    return np.concatenate([*parts, line.points[start : last + 1]])
 
 
 def _hidden(

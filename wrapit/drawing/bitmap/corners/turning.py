@@ -23,8 +23,7 @@ _CLOSE_PROBE = 0.9
 # How far beside a corner do its sides turn as they do? Where the corner itself is hardly seen. Of 288 rows of
 # three cusps (`tests.bench cusps`) 188 come out right, with 1.5 fewer; without all this 53.
 _BESIDE = 1.1
-# How far is its echo? There the arcs turn otherwise than the corner beside them. With 1.5 a bend of a worm is
-# a corner.
+# How far is its echo? There the arcs turn otherwise than the corner beside them. (1.5 does as well.)
 _ECHO = 2.0
 # What does a corner turn at least that its arcs hide? Less is what straight lines do by a hair.
 _LEAST_RAD = math.radians(10)
