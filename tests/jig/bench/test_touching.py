@@ -19,7 +19,7 @@ from tests.instructions.order.walks import (
 )
 from wrapit.geometry import Region
 from wrapit.jig.bench.model import Bench, Contact
-from wrapit.jig.bench.touching import DEPTH_MM, SHORTEST_MM
+from wrapit.jig.bench.touching import DEPTH_MM, SHORTEST_MM, STEP_MM
 from wrapit.jig.channel import SIDES
 from wrapit.wires.model import Wire
 
@@ -56,8 +56,8 @@ def check(wire: Wire, bench: Bench, reach_mm: float) -> None:
             for each in mine:
                 covered |= inside(at_mm, each, -ENDS_MM)
             missed = surely & ~covered
-            # What is left out is too short to wrap round.
-            assert longest(at_mm, missed) < SHORTEST_MM
+            # What is left out is too short to wrap round, or looks so: steps see it up to two steps shorter.
+            assert longest(at_mm, missed) < SHORTEST_MM + 2 * STEP_MM
 
 
 def inside(at_mm: np.ndarray, contact: Contact, margin_mm: float) -> np.ndarray:
