@@ -38,6 +38,42 @@ def test_strokes_that_cross_at_a_very_acute_angle_are_one_junction(traced, angle
 
 
 @few
+@given(
+    st.floats(8, 16),
+    st.floats(-0.2, 0.05),
+    st.floats(0, 0.5),
+    st.sampled_from([(1, 1.3), (1, 1.8), (1, 2.3), (-1, 1.1), (-1, 1.4), (-1, 1.8)]),
+    TURNS,
+)
+def test_strokes_that_end_near_each_other_on_a_bent_bar_are_two_joints(traced, width, bend, lean, ends, turn):
+    """As a snail's horns on its head: on one side of it, leaning apart, or on either side."""
+    side, apart = ends
+    x = np.linspace(-9, 9, 200)
+    bar = np.column_stack([x, bend * x * x])
+    slope = bend * apart
+    posts = []
+    for along, up, angle in ((-1, 1, -lean), (1, side, lean * side)):
+        foot = np.array([along * apart / 2, bend * apart**2 / 4])
+        normal = up * np.array([-slope * along, 1.0]) / math.hypot(slope, 1)
+        c, s = math.cos(angle), math.sin(angle)
+        posts.append(np.array([foot, foot + 7 * (np.array([[c, s], [-s, c]]) @ normal)]))
+    drawing, _ = traced([turned(CENTRE + width * curve, turn) for curve in (bar, *posts)], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 3, 3]
+
+
+@few
+@given(st.floats(8, 16), st.floats(45, 65), TURNS)
+def test_two_strokes_that_meet_on_a_bar_meet_in_one_junction(traced, width, slant_deg, turn):
+    """As an aerial's: their ink is one before they reach the bar, and no stroke goes straight on."""
+    up = np.array([[math.cos(a), math.sin(a)] for a in np.radians([slant_deg, 180 - slant_deg])])
+    legs = [np.array([[0.0, 0.0], 8 * one]) for one in up]
+    bar = np.array([[-9.0, 0.0], [9.0, 0.0]])
+    drawing, _ = traced([turned(CENTRE + width * curve, turn) for curve in (bar, *legs)], width)
+    assert degrees(drawing) == [1, 1, 1, 1, 4]
+    assert np.linalg.norm(junction_near(drawing, 4) - CENTRE) < 0.3 * width
+
+
+@few
 @given(st.floats(6, 9), TURNS)
 def test_strokes_whose_ink_hides_a_lens_cross_twice(traced, width, turn):
     upper = arc(260, 0.5, -0.35 * width)

@@ -39,16 +39,20 @@ def check(wire: Wire, laid: tuple[Wire, ...], found: tuple[Crossing, ...]) -> No
     at_mm, points = thinned(wire)
     reach = wire.diameter_mm
     self_apart = apart(points, points)
-    late = at_mm[:, None] - at_mm[None] > SELF_DIAMETERS * reach
+    later_mm = at_mm[:, None] - at_mm[None] - SELF_DIAMETERS * reach
     nearest = {other.number: apart(points, thinned(other)[1]).min(axis=1) for other in laid}
-    nearest[wire.number] = np.where(late, self_apart, np.inf).min(axis=1)
-    surely = {number: at_mm[distance < reach - SLACK_MM] for number, distance in nearest.items()}
-    perhaps = {number: at_mm[distance < reach + SLACK_MM] for number, distance in nearest.items()}
+    near_itself = [
+        np.where(later_mm > least, self_apart, np.inf).min(axis=1) for least in (0, -2 * SAMPLED_MM)
+    ]
+    surely, perhaps = (
+        {number: at_mm[distance < most_mm] for number, distance in (nearest | {wire.number: own}).items()}
+        for own, most_mm in zip(near_itself, (reach - SLACK_MM, reach + SLACK_MM), strict=True)
+    )
     for number, places in surely.items():
         told = [each for each in found if number in each.over]
         assert (len(places) > 0) <= (len(told) > 0)
     for each in found:
-        assert set(each.over) <= set(nearest)
+        assert set(each.over) <= set(perhaps)
         assert all(len(perhaps[number]) for number in each.over)
         assert 0 <= each.at_mm <= at_mm[-1] + SAMPLED_MM
     assert [each.at_mm for each in found] == sorted(each.at_mm for each in found)

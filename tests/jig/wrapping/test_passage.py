@@ -40,5 +40,6 @@ def test_round_any_bend_the_passage_has_no_crumbs(
     # Nothing of what the wire itself takes up is lost, nor of its channel where no wall holds it.
     assert free.covers(channels.lines[0].buffer(channels.face_mm))
     other = Turn(held.wire, held.start_mm, held.end_mm, "right" if side == "left" else "left", 0.1)
-    both = free.union(passage(channels, [other], config))
-    assert channels.area.difference(both).area < CRUMB_MM * channels.area.length
+    # Taken away one after the other: GEOS may lose a rim when it joins two grounds with the same edges.
+    neither = channels.area.difference(free).difference(passage(channels, [other], config))
+    assert neither.area < CRUMB_MM * channels.area.length

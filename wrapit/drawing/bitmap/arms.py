@@ -12,6 +12,7 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
+from wrapit.geometry.arrays import median
 from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import horner, polynomial
 
@@ -36,6 +37,10 @@ _LESS = 0.5
 # How far behind the first clean point does an arm start? The width is undisturbed there, the centre not yet
 # quite: without the cut, tangents at junctions are 9 degrees off in the median.
 _MARGIN = 0.1
+# How far (in stroke widths) is a stroke's own width read, and from how many points at least? 30 % make no
+# difference to ribbons.
+_NEAR = 8.0
+_FEWEST = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,3 +159,20 @@ def arms_at(
 ) -> list[Arm]:
     """The arms of a node; those measured on `hard` edges look farther."""
     return [arm(lines[strand], strand, end, width_px, hard=hard) for strand, end in graph.ends_at(node)]
+
+
+def widths_near(lines: dict[int, Line], arms: list[Arm], width_px: float) -> list[FloatArray]:
+    """The widths of each arm's stroke near its end, where they are known."""
+    widths = []
+    for each in arms:
+        line = lines[each.strand]
+        away = line.along if each.end == 0 else line.length - line.along
+        near = line.clean & (away < _NEAR * width_px) & np.isfinite(line.width)
+        widths.append(line.width[near])
+    return widths
+
+
+def usual_width(widths: list[FloatArray], width_px: float) -> float:
+    """The median of the widths beside a joint; the picture's where hardly any is known."""
+    known = np.concatenate(widths)
+    return median(known) if len(known) >= _FEWEST else width_px

@@ -93,6 +93,11 @@ def pair(arms: list[Arm], limit: float = PAIR_RAD) -> list[tuple[int, int]]:
     return best(tuple(range(len(arms))))[1]
 
 
+def smooth_pairs(arms: list[Arm]) -> list[tuple[int, int]]:
+    """The pairs of arms that continue each other without a kink."""
+    return [(i, j) for i, j in pair(arms) if not kinked(arms[i], arms[j])]
+
+
 def _greedy(allowed: dict[tuple[int, int], float]) -> list[tuple[int, int]]:
     taken: set[int] = set()
     pairs = []

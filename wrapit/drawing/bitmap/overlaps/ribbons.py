@@ -13,14 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wrapit.drawing.bitmap.arms import Arm, arm
+from wrapit.drawing.bitmap.arms import Arm, arm, usual_width, widths_near
 from wrapit.drawing.bitmap.centre_lines import Line, edges, smoothed
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.overlaps.ribbon_axis import RibbonAxis, axis_of, even
 from wrapit.drawing.bitmap.overlaps.swaps import swaps_of
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray, unit
-from wrapit.geometry.arrays import median
 from wrapit.geometry.polyline import lengths, slopes
 from wrapit.geometry.polynomials import angle
 
@@ -94,9 +93,8 @@ def _explained(
         return None
     # Seen from the other end, left is right.
     tails = tails[1], tails[0]
-    widths = _widths(lines, [*heads, *tails], width_px)
-    known_widths = np.concatenate(widths)
-    usual = median(known_widths) if len(known_widths) >= 6 else width_px
+    widths = widths_near(lines, [*heads, *tails], width_px)
+    usual = usual_width(widths, width_px)
     before, after = (between(pair_, usual) for pair_ in (heads, tails))
     axis = even([before[::-1], way.points, after], usual)
     along = lengths(axis)
@@ -183,17 +181,6 @@ def _sides(
     if abs(across) < 0.3 * width_px:
         return None
     return (arms[0], arms[1]) if across > 0 else (arms[1], arms[0])
-
-
-def _widths(lines: dict[int, Line], arms: list[Arm], width_px: float) -> list[FloatArray]:
-    """The widths of the strokes just outside the ribbon, where they are known."""
-    widths = []
-    for each in arms:
-        line = lines[each.strand]
-        away = line.along if each.end == 0 else line.length - line.along
-        near = line.clean & (away < 8 * width_px) & np.isfinite(line.width)
-        widths.append(line.width[near])
-    return widths
 
 
 def _may_touch(widths: list[FloatArray], arms: list[Arm], way: RibbonAxis) -> bool:

@@ -1,7 +1,6 @@
-"""Explains short stretches of ink between two forks: do two strokes cross there?
+"""Explains short stretches of ink between two forks: are these two joints, or one, as where strokes cross?
 
-Each way to pair the arms at both ends gives two smooth curves through the stretch. They are drawn again,
-and the pairing is kept whose width along the stretch agrees with the ink's.
+Both answers are drawn again as they would be traced, and compared with the ink.
 """
 
 from __future__ import annotations
@@ -10,36 +9,36 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wrapit.drawing.bitmap.arms import Arm, arm
+from wrapit.drawing.bitmap.arms import Arm, arm, usual_width, widths_near
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.pairing import Through, stepped, through, turn
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.overlaps.redrawn import joint, surroundings, two_joints
+from wrapit.drawing.bitmap.pairing import Through, smooth_pairs, stepped, through, turn
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
-from wrapit.geometry import FloatArray, unit
+from wrapit.geometry import FloatArray
 
-# None of these, varied by 30 %, changes any of 48 generated overlaps or 8 pictures of the corpus: most
-# crossings are far from each limit. In stroke widths: what stretch is short, and long enough to show its
-# width? Longer ones are ribbons, whose edges tell more.
+# In stroke widths: what stretch is short? Longer ones are ribbons, whose edges tell more.
 _LONGEST = 2.5
-_SEEN = 0.8
-# When does the width show a crossing? Where it misses that of two crossing strokes by less than this (in
-# stroke widths), and by less than 0.6 times what it misses that of one stroke.
-_MISFIT = 0.28
-_BETTER = 0.6
-# How much may each stroke turn in the stretch? More where the width shows that they cross.
-_TURN_RAD = np.radians(30)
-_TURN_SEEN_RAD = np.radians(65)
+# How much may a stroke turn where it crosses another?
+_TURN_RAD = np.radians(65)
+# By how many squared stroke widths may a crossing miss the ink by more than two joints do, which can be put
+# where they fit best? Of icons, tangles and bars, crossings do by 0.02 at most, bars between joints by 0.13.
+_ALIKE = 0.07
 # Shorter stretches are one crossing whatever their arms say: thinning alone tears a right-angled one so far.
 _TORN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """Two strokes that cross in a shared stretch: each a pair of arms, one at either end."""
+    """A joint in place of a stretch, the arms that cross there, one at either end, and what misses the ink.
+
+    `misfit` is in squared stroke widths.
+    """
 
     strand: int
-    cost: float
-    pairs: list[tuple[Arm, Arm]]
     at: FloatArray
+    pairs: list[tuple[Arm, Arm]]
+    misfit: float
 
 
 def worth_explaining(line: Line, width_px: float) -> bool:
@@ -47,35 +46,31 @@ def worth_explaining(line: Line, width_px: float) -> bool:
     return line.length <= _LONGEST * width_px
 
 
-def explain(graph: StrandGraph, lines: dict[int, Line], strand: int, width_px: float) -> Explanation | None:
-    """The best explanation of a stretch between two forks by two strokes, or nothing."""
+def explain(
+    graph: StrandGraph, lines: dict[int, Line], strand: int, ink: Ink, width_px: float
+) -> Explanation | None:
+    """The joint that a stretch between two forks is; nothing if it is a stroke of its own."""
     s, line = graph.strands[strand], lines[strand]
     heads = _others(graph, lines, s.start, strand, width_px)
     tails = _others(graph, lines, s.end, strand, width_px)
     if len(heads) != 2 or len(tails) != 2:
         return None
-    seen = line.length > _SEEN * width_px
-    best = None
-    for pairs in _crossed(heads, tails):
-        turns = [turn(a, b) for a, b in pairs]
-        if max(turns) > _TURN_SEEN_RAD:
-            continue
-        curves = [through(a, b) for a, b in pairs]
-        crossed, together = _misfits(line, _apart(curves, line), width_px)
-        cost = sum(value**2 for value in turns) + (crossed**2 if seen else 0.0)
-        if best is None or cost < best[0]:
-            best = (cost, turns, curves, pairs, crossed, together)
-    if best is None:
-        return None
-    cost, turns, curves, pairs, crossed, together = best
-    # A bar between two joints is as broad as one stroke, however smoothly other strokes would cross there.
-    if seen and crossed > together:
-        return None
-    seen = seen and crossed < _MISFIT and crossed < _BETTER * together
-    crossings = _crossings(curves[0], curves[1], width_px)
-    if len(crossings) != 1 or max(turns) > (_TURN_SEEN_RAD if seen else _TURN_RAD):
-        return None
-    return Explanation(strand, cost, pairs, crossings[0])
+    arms = [*heads, *tails]
+    around = surroundings(
+        ink, line.points, heads, tails, usual_width(widths_near(lines, arms, width_px), width_px)
+    )
+    stretch = arm(line, strand, 0, width_px), arm(line, strand, 1, width_px)
+    two = around.misfit(two_joints(line.points, heads, tails, stretch, ink))
+    crossings = []
+    for pairs, at in _crossings(heads, tails, width_px):
+        index = [(arms.index(a), arms.index(b)) for a, b in pairs]
+        crossings.append(Explanation(strand, at, pairs, around.misfit(joint(arms, at, index, ink))))
+    best = min(crossings, key=lambda each: each.misfit, default=None)
+    if best is not None and best.misfit < two + _ALIKE:
+        return best
+    middle = line.points[len(line.points) // 2]
+    met = around.misfit(joint(arms, middle, smooth_pairs(arms), ink))
+    return Explanation(strand, middle, [], met) if met < two else None
 
 
 def forks_apart(graph: StrandGraph, lines: dict[int, Line], width_px: float) -> set[int]:
@@ -98,7 +93,21 @@ def _crossed(heads: list[Arm], tails: list[Arm]) -> list[list[tuple[Arm, Arm]]]:
     return [pairs for pairs in ways if not any(stepped(a, b) for a, b in pairs)]
 
 
-def _crossings(a: Through, b: Through, width_px: float) -> list[FloatArray]:
+def _crossings(
+    heads: list[Arm], tails: list[Arm], width_px: float
+) -> list[tuple[list[tuple[Arm, Arm]], FloatArray]]:
+    """The ways in which two strokes cross once and turn little, and where."""
+    found = []
+    for pairs in _crossed(heads, tails):
+        if max(turn(a, b) for a, b in pairs) < _TURN_RAD:
+            one, other = (through(a, b) for a, b in pairs)
+            places = _common(one, other, width_px)
+            if len(places) == 1:
+                found.append((pairs, places[0]))
+    return found
+
+
+def _common(a: Through, b: Through, width_px: float) -> list[FloatArray]:
     """Where two curves cross between their arms."""
     along = [np.linspace(-0.5, 0.5, 61) * (curve.gap + width_px) for curve in (a, b)]
     first, second = (
@@ -122,31 +131,3 @@ def excess(line: Line, width_px: float) -> float:
 
 def _others(graph: StrandGraph, lines: dict[int, Line], node: int, strand: int, width_px: float) -> list[Arm]:
     return [arm(lines[other], other, end, width_px) for other, end in graph.ends_at(node) if other != strand]
-
-
-def _apart(curves: list[Through], line: Line) -> FloatArray:
-    """Signed distance between two curves, across every other point of the line between the forks."""
-    tangent = unit(np.gradient(line.points, axis=0))[::2]
-    normal = np.column_stack([-tangent[:, 1], tangent[:, 0]])
-    points = line.points[::2]
-    offsets = []
-    for curve in curves:
-        reach = 0.75 * curve.gap + line.length / 2
-        s = np.linspace(-reach, reach, 61)
-        places = (s[:, None] ** np.arange(len(curve.coefficients))) @ curve.coefficients
-        difference = places[None] - points[:, None]
-        along = np.abs((difference * tangent[:, None]).sum(axis=2))
-        nearest = np.argmin(along + 0.2 * np.linalg.norm(difference, axis=2), axis=1)
-        offsets.append((difference[np.arange(len(nearest)), nearest] * normal).sum(axis=1))
-    return offsets[0] - offsets[1]
-
-
-def _misfits(line: Line, apart: FloatArray, width_px: float) -> tuple[float, float]:
-    """How far (stroke widths) the ink's width is from that of two crossing strokes, and from one's."""
-    width = line.width[::2]
-    known = np.isfinite(width)
-    if not known.any():
-        return 0.0, 0.0
-    measured = np.minimum(width[known], 2 * width_px) / width_px
-    crossed = np.minimum(1 + np.abs(apart[known]) / width_px, 2.0)
-    return float(np.abs(measured - crossed).mean()), float(np.abs(measured - 1).mean())

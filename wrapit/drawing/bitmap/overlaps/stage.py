@@ -20,14 +20,13 @@ def resolve_overlaps(graph: StrandGraph, lines: dict[int, Line], ink: Ink, width
         if s.start == s.end or graph.degree(s.start) != 3 or graph.degree(s.end) != 3:
             continue
         if worth_explaining(lines[strand], width_px):
-            explanation = explain(graph, lines, strand, width_px)
+            explanation = explain(graph, lines, strand, ink, width_px)
             if explanation is not None:
                 found.append(explanation)
     taken: set[int] = set()
-    for explanation in sorted(found, key=lambda e: (e.cost, e.strand)):
+    for explanation in sorted(found, key=lambda e: (e.misfit, e.strand)):
         strand = explanation.strand
-        arms = {arm.strand for pair in explanation.pairs for arm in pair}
-        if strand not in graph.strands or not arms <= graph.strands.keys():
+        if strand not in graph.strands:
             continue
         s = graph.strands[strand]
         if s.start in taken or s.end in taken:
