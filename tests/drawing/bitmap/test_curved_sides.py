@@ -48,6 +48,43 @@ def test_a_step_with_a_curved_side_has_both_its_corners(traced, radius, side, tu
     assert has_corners(drawing, turned(corners, turn), width)
 
 
+def bend_and_corner(bend: float, radius: float, side: float, corner: float, width: float) -> Points:
+    """A round bend, a short straight side, and a corner that turns the other way, between long lines.
+
+    The corner is the last point but one.
+    """
+    a = math.radians(bend)
+    t = np.linspace(0, a, 24)
+    arc = radius * np.column_stack([np.sin(t), 1 - np.cos(t)])
+    apex = arc[-1] + side * np.array([math.cos(a), math.sin(a)])
+    leaving = a - math.radians(corner)
+    points = (
+        np.vstack([[-7, 0], arc, apex, apex + 7 * np.array([math.cos(leaving), math.sin(leaving)])]) * width
+    )
+    return points + CENTRE - (points.min(axis=0) + points.max(axis=0)) / 2
+
+
+@few
+@given(
+    st.floats(60, 95),
+    st.floats(0.8, 1.4),
+    st.one_of(st.floats(0.85, 1.4), st.floats(2.2, 2.6)),
+    st.floats(70, 95),
+    st.floats(10, 16),
+    TURNS,
+)
+def test_a_round_bend_beside_a_corner_moves_it_nowhere(traced, bend, radius, side, corner, width, turn):
+    """As at a shirt's armpit: the bend is no part of the corner's side."""
+    points = turned(bend_and_corner(bend, radius, side, corner, width), turn)
+    drawing, _ = traced([points], width)
+    assert degrees(drawing) == [1, 1, 2]
+    course = np.concatenate(
+        [[in_pixels(drawing, at) for at in s.curve.sampled(0.05)] for s in drawing.segments]
+    )
+    away = min(np.linalg.norm(course - points[-2], axis=1))
+    assert away < 0.2 * width
+
+
 def hook(side: float, turns: tuple[float, float], radius: float, width: float) -> tuple[Points, Points]:
     """A straight side between two long arcs, which it meets at turns of one sense; and where it meets them.
 

@@ -33,8 +33,8 @@ class StrandGraph:
     """Nodes (places) and strands by number; numbers are never used twice.
 
     `through` holds, for nodes where it is known, which strand ends continue each other; `corners` are
-    nodes that stay although only two strand ends meet there, and `chained` those of them whose places a chain
-    of sides told.
+    nodes that stay although only two strand ends meet there, and `placed` those of them whose places are
+    known better than by what points at them.
     """
 
     nodes: dict[int, FloatArray] = field(default_factory=dict)
@@ -43,7 +43,7 @@ class StrandGraph:
     notices: list[Notice] = field(default_factory=list)
     through: dict[int, tuple[tuple[StrandEnd, StrandEnd], ...]] = field(default_factory=dict)
     corners: set[int] = field(default_factory=set)
-    chained: set[int] = field(default_factory=set)
+    placed: set[int] = field(default_factory=set)
     _next: int = 0
     _ends: dict[int, list[StrandEnd]] = field(default_factory=dict)
 

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.drawing.bitmap.corners.edge_fit import missed
 from wrapit.drawing.bitmap.corners.roundness import bend_radius
+from wrapit.drawing.bitmap.corners.short_sides import edge_points
 from wrapit.drawing.bitmap.corners.turning import SEEN_RAD
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.ink import Ink
@@ -30,6 +32,9 @@ LEAST = 0.45
 _HARD_SIDE = 2.2
 # When are two places of most turning one corner? Where they are nearer than a width and a quarter.
 _TWICE = 1.25
+# How far beside the place of most turning may a corner lie? Between two with a short side that place is the
+# side's middle: a corner found farther off is looked for once more where it is. 0.35 and 0.65 change nothing.
+_BESIDE = 0.5
 # What may be a corner? A bend that is no rounder by its middle line; its outer edge decides. With 0.49 true
 # corners are not even looked at: Hausdorff distance 0.28.
 _ROUND = 0.7
@@ -73,6 +78,11 @@ def corners_apart(
         end = candidates[k + 1] - LEAST * width_px if k + 1 < len(candidates) else high
         end = min(high, end, place + FAR * width_px)
         corner = corner_between(line, ink, width_px, place, start, end)
+        if corner is not None and corner.sharp:
+            foot = _foot(line, corner)
+            if abs(foot - place) > _BESIDE * width_px:
+                again = corner_between(line, ink, width_px, foot, start, end)
+                corner = corner if again is None else _better(line, ink, width_px, corner, again)
         if corner is not None and (not found or corner.before > found[-1].after):
             found.append(corner)
     return found
@@ -144,6 +154,26 @@ def corner_between(
     # The sides may reach into the arc.
     between = ((bend - line.points[before - 1]) @ arriving > 0) & ((line.points[after] - bend) @ leaving > 0)
     return Corner(bend[between], before, after, turn, False) if between.any() else None
+
+
+def _foot(line: Line, corner: Corner) -> float:
+    """Length at the point of a line nearest to the apex of a corner."""
+    away = np.linalg.norm(line.points[corner.before - 1 : corner.after + 1] - corner.points[0], axis=1)
+    return float(line.along[corner.before - 1 + int(np.argmin(away))])
+
+
+def _better(line: Line, ink: Ink, width_px: float, one: Corner, other: Corner) -> Corner:
+    """The corner that misses the ink's edges by less."""
+    around = round(FAR / 3 * width_px * (len(line.points) - 1) / line.length)
+    first = max(min(one.before, other.before) - around, 0)
+    last = min(max(one.after, other.after) + around, len(line.points) - 1)
+    edge = edge_points(ink, line.points[first : last + 1], width_px)
+
+    def misses(corner: Corner) -> float:
+        parts = line.points[first : corner.before], corner.points, line.points[corner.after : last + 1]
+        return missed(np.concatenate(parts), edge, width_px).rms
+
+    return min(one, other, key=misses)
 
 
 def off_line(line: Line, apex: FloatArray, first: int, last: int) -> float:

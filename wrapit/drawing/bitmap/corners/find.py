@@ -166,12 +166,13 @@ def _of_curves(ink: Ink, chain: CurvedChain) -> list[Corner]:
         turned = angle(arriving, leaving)
         radius = bend_radius(ink, apex, arriving, leaving, turned, chain.width_px)
         sharp = radius is None or radius < _CURVED_CORNER
-        if not sharp and turned > SEEN_RAD:
-            return []
         before = chain.last if k else chain.first
         last = chain.side(k + 1) if k == len(curves.corners) - 3 else None
-        found.append(Corner(apex[None], before, chain.last, turned, sharp, chain.side(k), last, True))
-    return found if any(corner.turn_rad > SEEN_RAD for corner in found) else []
+        points = apex[None]
+        if radius is not None and not sharp and turned > SEEN_RAD:
+            points = arc(apex, arriving, leaving, turned, radius * chain.width_px)
+        found.append(Corner(points, before, chain.last, turned, sharp, chain.side(k), last, True))
+    return found if any(corner.sharp and corner.turn_rad > SEEN_RAD for corner in found) else []
 
 
 def _crowded_groups(

@@ -33,15 +33,26 @@ def split_corners(
             continue
         corners = find_corners(line, ink, width_px, first, last)
         if corners:
-            _split(graph, lines, strand, corners, corner_rad)
+            _split(graph, lines, strand, corners, corner_rad, hard=ink.stair_px > 0)
 
 
 def _split(
-    graph: StrandGraph, lines: dict[int, Line], strand: int, corners: list[Corner], corner_rad: float
+    graph: StrandGraph,
+    lines: dict[int, Line],
+    strand: int,
+    corners: list[Corner],
+    corner_rad: float,
+    *,
+    hard: bool,
 ) -> None:
+    """Cuts a strand at its corners.
+
+    Their places are kept where they tell more than what points at them: those of chains on hard edges, whose
+    arms begin far off, and those of corners apart on grey ones, as arms take in bends near by.
+    """
     s, line = graph.strands[strand], lines[strand]
     parts: list[tuple[list[slice | FloatArray | Line], FloatArray]] = []
-    chained: list[bool] = []
+    placed: list[bool] = []
     stretch: list[slice | FloatArray | Line] = []
     start = 0
     for corner in corners:
@@ -51,7 +62,7 @@ def _split(
         start = corner.after
         if corner.sharp and corner.turn_rad >= corner_rad:
             parts.append((stretch, corner.points[0]))
-            chained.append(corner.chained)
+            placed.append(corner.chained == hard)
             stretch = []
         else:
             stretch.append(corner.points)
@@ -60,7 +71,7 @@ def _split(
     stretch.append(slice(start, len(line.points)))
     nodes = [s.start, *(graph.add_node(apex) for _, apex in parts), s.end]
     graph.corners |= set(nodes[1:-1])
-    graph.chained |= {node for node, known in zip(nodes[1:-1], chained, strict=True) if known}
+    graph.placed |= {node for node, kept in zip(nodes[1:-1], placed, strict=True) if kept}
     pieces = [_joined(line, items) for items in [*(items for items, _ in parts), stretch]]
     if graph.is_seam(s.start) and len(pieces) > 1:
         # A closed loop with corners needs its seam no longer.

@@ -26,10 +26,8 @@ def ended(graph: StrandGraph, lines: dict[int, Line], rings: Rings, ink: Ink, wi
             graph.nodes[node], ending = place_end(arms[0], ink)
             endings[arms[0].strand, arms[0].end] = ending
         elif not graph.is_seam(node):
-            # On hard edges the chain that placed a corner tells more than its sides, which may begin far off.
-            known = ink.stair_px > 0 and node in graph.chained
             pairs = _pairs(graph, node, arms)
-            graph.nodes[node], found = place(arms, graph.nodes[node], pairs, ink, known=known)
+            graph.nodes[node], found = place(arms, graph.nodes[node], pairs, ink, known=node in graph.placed)
             for arm, ending in zip(arms, found, strict=True):
                 endings[arm.strand, arm.end] = ending
     return endings
