@@ -89,7 +89,10 @@ def test_slicer_needs_no_repairs(piece: Piece, program: Program, tmp_path: Path,
         assert float(told["volume"]) == pytest.approx(float(also["volume"]), rel=1e-4)
     for model in three_mfs:
         gcode = tmp_path / f"{model.name}.gcode"
-        command = [slicer, "--export-gcode", "--output", str(gcode), str(model)]
+        # Paths may leave a layer's outline by half of what a nozzle can place, once it is cut from the mesh:
+        # as long as it follows each facet, the slicer takes thrice the time.
+        coarse = ["--resolution", "0.05", "--gcode-resolution", "0.1"]
+        command = [slicer, "--export-gcode", *coarse, "--output", str(gcode), str(model)]
         run = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
         said = (run.stdout + run.stderr).replace(str(tmp_path), "")
         assert run.returncode == 0, said
