@@ -25,9 +25,9 @@ from wrapit.pipeline.work import Work
 
 CONFIG = Config(drawing="drawing.svg", jigs=("printed",))
 # Of those that are opened in other programs, these differ in what booleans see: six wires in one jig, walls
-# close together, one wire that crosses itself, several jigs. A boolean takes the longer the more faces jig and
-# wire have: those of the mandala's 16 wires took a minute, and the three pieces that are left out (mandala,
-# lotus, butterfly: several wires in one jig, as the bee's) half as long again as these four.
+# close together, one wire that crosses itself, several jigs. A boolean takes the longer the more faces jig
+# and wire have: those of the mandala's 16 wires took a minute, and the three pieces that are left out
+# (mandala, lotus, butterfly: several wires in one jig, as the bee's) half as long again as these four.
 JUDGED = ("bee", "dolphin", "heart-knot", "leaf")
 
 
