@@ -27,6 +27,7 @@ def opened(path):
     ImportGui.insert(path, document.Name)
     features = [seen(thing) for thing in document.Objects if thing.TypeId == "Part::Feature"]
     groups = [thing.Label for thing in document.Objects if thing.TypeId in ("App::LinkGroup", "App::Part")]
+    App.closeDocument(document.Name)
     return {"features": features, "groups": groups}
 
 
@@ -34,19 +35,19 @@ def merged(path):
     """What FreeCAD shows with its preferences as they come: labels and numbers of solids."""
     document = App.newDocument()
     ImportGui.insert(path, document.Name)
-    return {thing.Label: len(thing.Shape.Solids) for thing in document.Objects if hasattr(thing, "Shape")}
+    found = {thing.Label: len(thing.Shape.Solids) for thing in document.Objects if hasattr(thing, "Shape")}
+    App.closeDocument(document.Name)
+    return found
 
 
 try:
     paths = os.environ["STEP_FILES"].split(os.pathsep)
-    as_it_comes = {Path(path).name: merged(path) for path in paths}
+    as_it_comes = {path: merged(path) for path in paths}
     # The preference "Enable STEP Compound merge", off: otherwise an assembly arrives as one object.
     App.ParamGet("User parameter:BaseApp/Preferences/Mod/Import/hSTEP").SetBool(
         "ReadShapeCompoundMode", False
     )
-    answer = {
-        Path(path).name: {**opened(path), "as_it_comes": as_it_comes[Path(path).name]} for path in paths
-    }
+    answer = {path: {**opened(path), "as_it_comes": as_it_comes[path]} for path in paths}
     Path(os.environ["SEEN_JSON"]).write_text(json.dumps(answer))
 except BaseException:  # noqa: BLE001  told to the test; a dialog would wait for ever
     Path(os.environ["SEEN_JSON"] + ".error").write_text(traceback.format_exc())

@@ -144,8 +144,9 @@ def test_what_is_up_to_date_stays_and_what_changed_is_built(built: tuple[Path, P
 
 
 def test_a_file_that_a_slicer_has_open_stops_the_build_before_it_changes_anything(
-    built: tuple[Path, Path], tmp_path: Path
+    built: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv("WRAPIT_CACHE", str(tmp_path / "cache"))  # the second build recalls all of the first
     folder = shutil.copytree(built[1], tmp_path / "pieces")
     before = held(folder / "build")
     with (folder / "build" / NAME / "jig.3mf").open("rb"):

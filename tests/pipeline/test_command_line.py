@@ -29,8 +29,8 @@ def wrapit(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Comple
 
 @pytest.fixture
 def bee(tmp_path: Path) -> Path:
-    """A config of a piece whose drawing is a copy of the butterfly."""
-    shutil.copy(CONFIGS / "butterfly.png", tmp_path / "bee.png")
+    """A config of a piece whose drawing is a copy of the treble clef, the quickest of our bitmaps."""
+    shutil.copy(CONFIGS / "treble-clef.png", tmp_path / "bee.png")
     config = tmp_path / "bee.yaml"
     config.write_text("drawing: bee.png\nsize: 40 mm\n")
     return config

@@ -66,6 +66,8 @@ def test_each_remedy_is_tried_and_does(refused_piece: tuple[Path, str], tmp_path
         assert report["jig"]["held"] == pytest.approx(int(held) / 100, abs=0.02)
 
 
+# Once is enough: it is the same search for what would do, which takes long where a drawing is dense.
+@pytest.mark.parametrize("refused_piece", ["tiny"], indirect=True)
 def test_check_says_the_same(refused_piece: tuple[Path, str]) -> None:
     config, line = refused_piece
     with pytest.raises(UnheldError) as refusal:
