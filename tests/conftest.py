@@ -7,6 +7,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from hypothesis import settings
@@ -28,10 +29,15 @@ CONFIGS = Path(__file__).parent.parent / "configs"
 # with a ring.
 OPENED = ("bee", "butterfly", "dolphin", "earrings", "heart-knot", "leaf", "lotus", "mandala")
 
+
+def constants_of_no_module() -> providers.Constants:
+    return providers._local_constants
+
+
 if os.environ.get("CI"):
     # Hypothesis draws from the numbers that stand in our sources too, in those that happen to be imported by
     # then: what a worker ran before would change its fixed cases, and so would any commit.
-    providers._get_local_constants = lambda: providers._local_constants
+    mock.patch.object(providers, "_get_local_constants", constants_of_no_module).start()
 settings.register_profile("wrapit", deadline=None, derandomize=bool(os.environ.get("CI")), print_blob=True)
 settings.load_profile("wrapit")
 

@@ -14,7 +14,7 @@ SCRIPT = Path(__file__).with_name("freecad_tree.py")
 def tree(xvfb_run: str, freecad: str, files: list[Path], scratch: Path) -> dict[Path, dict[str, Any]]:
     """For each file the features that FreeCAD shows (label, volume, colour, curves) and the groups.
 
-    All are opened by one FreeCAD, which takes 4.5 s to start. Those are with "Enable STEP Compound merge"
+    All are opened by one FreeCAD, which takes seconds to start. Those are with "Enable STEP Compound merge"
     off; `as_it_comes` has the solids by label with it on.
     """
     seen, error = scratch / "seen.json", scratch / "seen.json.error"

@@ -59,8 +59,7 @@ def test_a_blunt_corner_is_not_cut(traced, inner_angle, width, turn):
     drawing, _ = traced([points], width)
     assert degrees(drawing) == [1, 1]
     course = np.array([in_pixels(drawing, at) for at in drawing.segments[0].curve.sampled(0.1)])
-    # Of thin strokes a pixel hides more.
-    assert np.linalg.norm(course - points[1], axis=1).min() < max(0.08 * width, 0.8)
+    assert np.linalg.norm(course - points[1], axis=1).min() < 0.08 * width
 
 
 def test_a_round_bend_is_no_corner(traced):

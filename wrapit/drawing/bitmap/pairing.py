@@ -93,9 +93,9 @@ def pair(arms: list[Arm], limit: float = PAIR_RAD) -> list[tuple[int, int]]:
     return best(tuple(range(len(arms))))[1]
 
 
-def smooth_pairs(arms: list[Arm]) -> list[tuple[int, int]]:
-    """The pairs of arms that continue each other without a kink."""
-    return [(i, j) for i, j in pair(arms) if not kinked(arms[i], arms[j])]
+def unkinked(arms: list[Arm], pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Those of the pairs that don't meet at an angle."""
+    return [(i, j) for i, j in pairs if not kinked(arms[i], arms[j])]
 
 
 def _greedy(allowed: dict[tuple[int, int], float]) -> list[tuple[int, int]]:

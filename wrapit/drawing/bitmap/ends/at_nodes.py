@@ -8,7 +8,7 @@ from wrapit.drawing.bitmap.endings import place, place_end
 from wrapit.drawing.bitmap.ends.rings import Ends, Rings
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.pairing import kinked, pair
+from wrapit.drawing.bitmap.pairing import pair, unkinked
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 
 
@@ -43,4 +43,4 @@ def _pairs(graph: StrandGraph, node: int, arms: list[Arm]) -> list[tuple[int, in
         pairs = [(index[a], index[b]) for a, b in known]
     else:
         pairs = pair(arms)
-    return [(i, j) for i, j in pairs if not kinked(arms[i], arms[j])]
+    return unkinked(arms, pairs)

@@ -10,7 +10,7 @@ import numpy as np
 from wrapit.drawing.bitmap.arms import Arm
 from wrapit.drawing.bitmap.endings import place
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.pairing import smooth_pairs
+from wrapit.drawing.bitmap.pairing import pair, unkinked
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import at_lengths, lengths
 
@@ -50,7 +50,7 @@ def surroundings(
     `width_px` is how broad the strokes are here.
     """
     step = max(1, int(_PLACES * width_px))
-    around = ways(points, heads, tails)
+    around = _ways(points, heads, tails)
     cloud = np.vstack(around)
     height, width = ink.grey.shape
     low = np.maximum(np.floor(cloud.min(axis=0) - _AROUND * width_px).astype(int), 0)
@@ -63,7 +63,7 @@ def surroundings(
     return Surroundings(places, dark, (step / width_px) ** 2, width_px)
 
 
-def ways(points: FloatArray, heads: Sequence[Arm], tails: Sequence[Arm]) -> list[FloatArray]:
+def _ways(points: FloatArray, heads: Sequence[Arm], tails: Sequence[Arm]) -> list[FloatArray]:
     """A stretch and the straight ways from its ends to the arms there."""
     starts = [(arm, points[0]) for arm in heads] + [(arm, points[-1]) for arm in tails]
     return [points, *(np.vstack([end, arm.points[0]]) for arm, end in starts)]
@@ -78,13 +78,17 @@ def joint(arms: list[Arm], around: FloatArray, pairs: list[tuple[int, int]], ink
     ]
 
 
+def meeting(arms: list[Arm], around: FloatArray, ink: Ink) -> list[FloatArray]:
+    """The same where it is not known which arms continue each other."""
+    return joint(arms, around, unkinked(arms, pair(arms)), ink)
+
+
 def two_joints(
     points: FloatArray, heads: list[Arm], tails: list[Arm], stretch: tuple[Arm, Arm], ink: Ink
 ) -> list[FloatArray]:
     """The strokes at both ends of a stretch (n, 2) that is one of its own; `stretch` are its arms."""
     first, last = [*heads, stretch[0]], [*tails, stretch[1]]
-    before = joint(first, points[0], smooth_pairs(first), ink)
-    after = joint(last, points[-1], smooth_pairs(last), ink)
+    before, after = meeting(first, points[0], ink), meeting(last, points[-1], ink)
     # What is nearest to both joints is bent by thinning.
     inner = points[len(points) // 4 : -(len(points) // 4)]
     return [*before[:-1], *after[:-1], np.vstack([before[-1][:1], inner, after[-1][:1]])]

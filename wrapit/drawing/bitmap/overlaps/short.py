@@ -12,8 +12,8 @@ import numpy as np
 from wrapit.drawing.bitmap.arms import Arm, arm, usual_width, widths_near
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.overlaps.redrawn import joint, surroundings, two_joints
-from wrapit.drawing.bitmap.pairing import Through, smooth_pairs, stepped, through, turn
+from wrapit.drawing.bitmap.overlaps.redrawn import joint, meeting, surroundings, two_joints
+from wrapit.drawing.bitmap.pairing import Through, stepped, through, turn
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import FloatArray
 
@@ -22,7 +22,7 @@ _LONGEST = 2.5
 # How much may a stroke turn where it crosses another?
 _TURN_RAD = np.radians(65)
 # By how many squared stroke widths may a crossing miss the ink by more than two joints do, which can be put
-# where they fit best? Of icons, tangles and bars, crossings do by 0.02 at most, bars between joints by 0.13.
+# where they fit best? Of icons, tangles and bars, crossings do by 0.03 at most, bars between joints by 0.13.
 _ALIKE = 0.07
 # Shorter stretches are one crossing whatever their arms say: thinning alone tears a right-angled one so far.
 _TORN = 0.5
@@ -56,9 +56,8 @@ def explain(
     if len(heads) != 2 or len(tails) != 2:
         return None
     arms = [*heads, *tails]
-    around = surroundings(
-        ink, line.points, heads, tails, usual_width(widths_near(lines, arms, width_px), width_px)
-    )
+    own_px = usual_width(widths_near(lines, arms, width_px), width_px)
+    around = surroundings(ink, line.points, heads, tails, own_px)
     stretch = arm(line, strand, 0, width_px), arm(line, strand, 1, width_px)
     two = around.misfit(two_joints(line.points, heads, tails, stretch, ink))
     crossings = []
@@ -69,7 +68,7 @@ def explain(
     if best is not None and best.misfit < two + _ALIKE:
         return best
     middle = line.points[len(line.points) // 2]
-    met = around.misfit(joint(arms, middle, smooth_pairs(arms), ink))
+    met = around.misfit(meeting(arms, middle, ink))
     return Explanation(strand, middle, [], met) if met < two else None
 
 
