@@ -34,6 +34,7 @@ _HARD_SIDE = 2.2
 _TWICE = 1.25
 # How far beside the place of most turning may a corner lie? Between two with a short side that place is the
 # side's middle: a corner found farther off is looked for once more where it is. 0.35 and 0.65 change nothing.
+# On hard edges stairs would decide which fits better: 23 of 26 thresholded drawings come out right, not 25.
 _BESIDE = 0.5
 # What may be a corner? A bend that is no rounder by its middle line; its outer edge decides. With 0.49 true
 # corners are not even looked at: Hausdorff distance 0.28.
@@ -78,7 +79,7 @@ def corners_apart(
         end = candidates[k + 1] - LEAST * width_px if k + 1 < len(candidates) else high
         end = min(high, end, place + FAR * width_px)
         corner = corner_between(line, ink, width_px, place, start, end)
-        if corner is not None and corner.sharp:
+        if corner is not None and corner.sharp and ink.stair_px == 0:
             foot = _foot(line, corner)
             if abs(foot - place) > _BESIDE * width_px:
                 again = corner_between(line, ink, width_px, foot, start, end)
