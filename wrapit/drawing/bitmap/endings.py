@@ -70,7 +70,7 @@ def place(
         for k, sign in ((i, -1), (j, 1)):
             lead = _lead(curve, foot_now, sign * curve.gap / 2, offset, arms[k])
             tangent = sign * direction
-            endings[k] = Ending(tangent, lead, arms[k].cut + _passed(arms[k], point, tangent))
+            endings[k] = Ending(tangent, lead, arms[k].cut + passed(arms[k], point, tangent))
     through_tangents = [endings[k].tangent for k in endings]
     for k in single:
         endings[k] = (
@@ -120,10 +120,10 @@ def _extrapolated(single: Arm, point: FloatArray) -> tuple[FloatArray, FloatArra
 
 def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -> Ending:
     on, direction = _extrapolated(single, point)
-    passed = _passed(single, point, direction)
-    start = single.points[passed]
+    behind = passed(single, point, direction)
+    start = single.points[behind]
     gap = float(np.linalg.norm(start - point))
-    cut = single.cut + passed
+    cut = single.cut + behind
     for tangent in tangents:
         if angle(tangent, direction) < _SNAP_RAD:
             return Ending(tangent, np.zeros((0, 2)), cut)
@@ -141,7 +141,7 @@ def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> End
     return Ending(tangent, merge.lead, single.cut)
 
 
-def _passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:
+def passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:
     """How many of an arm's first points lie behind the junction, where a stroke would have to double back.
 
     A junction lies inside an arm where the others pull it there; at most half the arm makes way.

@@ -18,12 +18,13 @@ from wrapit.drawing.bitmap.cleanup import (
     without_pinholes,
 )
 from wrapit.drawing.bitmap.corners.stage import split_corners
-from wrapit.drawing.bitmap.endings import Ending
+from wrapit.drawing.bitmap.curves import start_loops
 from wrapit.drawing.bitmap.ends.at_nodes import ended
 from wrapit.drawing.bitmap.ends.rings import ring_joints
 from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.hard_edges.steady import all_steadied
+from wrapit.drawing.bitmap.mending import mended
 from wrapit.drawing.bitmap.overlaps.short import forks_apart
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.overlaps.tips import open_tips
@@ -144,7 +145,9 @@ def _traced(
     measured = lines if needs_longer_look(ink, width_px) else steady
     endings = ended(graph, measured, rings, ink, width_px)
     tolerance = _tolerance(picture, tracing)
-    pieces = _fitted(graph, steady, endings, width_px, tolerance)
+    start_loops(graph, steady, endings, width_px)
+    curves, missed = mended(graph, steady, endings, ink, width_px, tolerance)
+    pieces = [Piece(s.start, s.end, curves[strand]) for strand, s in graph.strands.items()]
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
@@ -219,58 +222,3 @@ def _tolerance(picture: Picture, tracing: TracingConfig) -> float:
     if not picture.uneven_px:
         return tracing.tolerance
     return max(_OF_TOLERANCE * tracing.tolerance, _STAIR * picture.uneven_px / picture.skeleton.width_px)
-
-
-def _fitted(
-    graph: StrandGraph,
-    lines: dict[int, Line],
-    endings: dict[tuple[int, int], Ending],
-    width_px: float,
-    tolerance: float,
-) -> list[Piece]:
-    for node in graph.nodes:
-        if graph.is_seam(node):
-            _seam(graph, lines, node, endings, width_px)
-    strokes = [
-        _stroke(graph, strand, lines[strand], endings[strand, 0], endings[strand, 1])
-        for strand in graph.strands
-    ]
-    chains = fit_all(strokes, tolerance * width_px, reach=width_px)
-    return [Piece(s.start, s.end, chain) for s, chain in zip(graph.strands.values(), chains, strict=True)]
-
-
-def _seam(
-    graph: StrandGraph,
-    lines: dict[int, Line],
-    node: int,
-    endings: dict[tuple[int, int], Ending],
-    width_px: float,
-) -> None:
-    """A closed loop without junction starts and ends at its topmost point, in one direction."""
-    strand = graph.ends_at(node)[0][0]
-    line = lines[strand]
-    top = int(np.argmin(line.points[:-1, 1]))
-    lines[strand] = line = line.turned(top)
-    reach = int(np.searchsorted(line.along, width_px))
-    tangent = unit(line.points[reach] - line.points[-1 - reach])
-    graph.nodes[node] = line.points[0]
-    endings[strand, 0] = Ending(tangent, np.zeros((0, 2)), 1)
-    endings[strand, 1] = Ending(-tangent, np.zeros((0, 2)), 1)
-
-
-def _stroke(graph: StrandGraph, strand: int, line: Line, first: Ending, last: Ending) -> Stroke:
-    s = graph.strands[strand]
-    stop = len(line.points) - last.cut
-    inner = slice(first.cut, stop)
-    keep = line.clean[inner] if stop > first.cut and line.clean[inner].mean() > 0.6 else slice(None)
-    middle = line.points[inner][keep] if stop > first.cut else np.zeros((0, 2))
-    # A point every quarter of the width tells a curve as well as one every eighth.
-    if len(middle) > 32:
-        told = np.arange(len(middle)) % 2 == 0
-        # A gentle corner's own points have no width; without its apex a curve cuts it by 0.4 widths.
-        told |= np.isnan(line.width[inner][keep])
-        middle = middle[told]
-    points = np.vstack(
-        [graph.nodes[s.start][None], first.lead, middle, last.lead[::-1], graph.nodes[s.end][None]]
-    )
-    return Stroke(points, first.tangent, -last.tangent)

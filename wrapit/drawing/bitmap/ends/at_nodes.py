@@ -26,14 +26,14 @@ def ended(graph: StrandGraph, lines: dict[int, Line], rings: Rings, ink: Ink, wi
             graph.nodes[node], ending = place_end(arms[0], ink)
             endings[arms[0].strand, arms[0].end] = ending
         elif not graph.is_seam(node):
-            pairs = _pairs(graph, node, arms)
+            pairs = pairs_at(graph, node, arms)
             graph.nodes[node], found = place(arms, graph.nodes[node], pairs, ink, known=node in graph.placed)
             for arm, ending in zip(arms, found, strict=True):
                 endings[arm.strand, arm.end] = ending
     return endings
 
 
-def _pairs(graph: StrandGraph, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
+def pairs_at(graph: StrandGraph, node: int, arms: list[Arm]) -> list[tuple[int, int]]:
     """Which arms of a node continue each other; at a corner, where only two meet, none do."""
     if len(arms) == 2:
         return []
