@@ -7,14 +7,14 @@ import numpy as np
 from wrapit.drawing.bitmap.arms import Arm, arms_at, usual_width, widths_near
 from wrapit.drawing.bitmap.centre_lines import Line, sample
 from wrapit.drawing.bitmap.curves import fitted
-from wrapit.drawing.bitmap.endings import Ending, passed
+from wrapit.drawing.bitmap.endings import Ending, bent_ending, passed
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.misfits import Misfit, misfits
 from wrapit.drawing.bitmap.overlaps.redrawn import Surroundings, surroundings
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
-from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry import BezierChain, FloatArray
 from wrapit.geometry.polynomials import angle
 
 # In stroke widths.
@@ -24,8 +24,6 @@ _NEAR = 1.5
 _STEPS = (0.5, 0.25, 0.125, 0.0625)
 # What share of what was missed may be left?
 _LEFT = 0.5
-# How finely are leads drawn?
-_FINE = 0.25
 # What does a lead that bends cost, in squared widths for each squared radian?
 _BENT = 0.1
 
@@ -35,7 +33,7 @@ def mended(
 ) -> tuple[dict[int, BezierChain], list[Misfit]]:
     """The curve of each strand, with nodes moved that so explain the ink better, and what is still missed."""
     curves = fitted(graph, lines, endings, graph.strands, width_px, tolerance)
-    found = misfits(ink.mask, list(curves.values()), lines.values(), width_px)
+    found = misfits(ink.mask, curves, lines, width_px)
     for node in _near(graph, found, width_px):
         before = _amount(found, graph.nodes[node], width_px)
         arms = arms_at(graph, lines, node, width_px, hard=False)
@@ -46,7 +44,7 @@ def mended(
         tried = endings | leads
         changed = fitted(graph, lines, tried, {strand for strand, _ in leads}, width_px, tolerance)
         trial = curves | changed
-        left = misfits(ink.mask, list(trial.values()), lines.values(), width_px)
+        left = misfits(ink.mask, trial, lines, width_px)
         after = max(_amount(left, at, width_px) for at in (was, place))
         if after < _LEFT * before:
             curves, found, endings = trial, left, tried
@@ -85,19 +83,23 @@ def _moved(
     start = graph.nodes[node]
     around = surroundings(ink, np.stack([start, start]), arms, [], own_px)
     place = _best(around, arms, start)
-    return place, {
-        (each.strand, each.end): Ending(unit(lead[1] - lead[0]), lead[1:-1], each.cut + behind)
-        for each in arms
-        for lead, behind, _ in [_lead(each, place)]
-    }
+    return place, {(each.strand, each.end): _ending(each, place) for each in arms}
 
 
 def _best(around: Surroundings, arms: list[Arm], start: FloatArray) -> FloatArray:
     """The place from which leads to the arms miss the ink least: the best neighbour, step by step."""
 
     def cost(place: FloatArray) -> float:
-        leads = [_lead(each, place) for each in arms]
-        return around.misfit([lead for lead, _, _ in leads]) + _BENT * sum(bent**2 for _, _, bent in leads)
+        endings = [_ending(each, place) for each in arms]
+        leads = [
+            np.vstack([place, ending.lead, each.points[ending.cut - each.cut]])
+            for each, ending in zip(arms, endings, strict=True)
+        ]
+        bent = [
+            angle(ending.tangent, each.at(float(each.along[ending.cut - each.cut]))[1])
+            for each, ending in zip(arms, endings, strict=True)
+        ]
+        return around.misfit(leads) + _BENT * sum(turn**2 for turn in bent)
 
     ways = [np.array([x, y], dtype=np.float64) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y]
     best, least = start, cost(start)
@@ -112,15 +114,5 @@ def _best(around: Surroundings, arms: list[Arm], start: FloatArray) -> FloatArra
     return best
 
 
-def _lead(arm: Arm, place: FloatArray) -> tuple[FloatArray, int, float]:
-    """Points (n, 2) from a place to an arm, by a parabola that arrives as the arm goes on.
-
-    With it come how many of the arm's points lie behind the place, and how much it turns, in radians.
-    """
-    behind = passed(arm, place, arm.at(0.0)[1])
-    first, (_, direction) = arm.points[behind], arm.at(float(arm.along[behind]))
-    far = float(np.linalg.norm(first - place))
-    bend = first - far / 2 * direction
-    t = np.linspace(0, 1, max(4, int(far / (_FINE * arm.width_px)) + 1))[:, None]
-    lead = (1 - t) ** 2 * place + 2 * (1 - t) * t * bend + t**2 * first
-    return lead, behind, angle(bend - place, direction)
+def _ending(arm: Arm, place: FloatArray) -> Ending:
+    return bent_ending(arm, place, passed(arm, place, arm.at(0.0)[1]))

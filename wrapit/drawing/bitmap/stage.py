@@ -8,7 +8,7 @@ import numpy as np
 
 from wrapit.config import TracingConfig
 from wrapit.drawing.assembly import Piece, Placement, assemble, placement
-from wrapit.drawing.bitmap.centre_lines import Line, centre_lines, renewed
+from wrapit.drawing.bitmap.centre_lines import centre_lines, renewed
 from wrapit.drawing.bitmap.cleanup import (
     Radii,
     contract_short,
@@ -25,6 +25,7 @@ from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.hard_edges.steady import all_steadied
 from wrapit.drawing.bitmap.mending import mended
+from wrapit.drawing.bitmap.misfits import tell_misread
 from wrapit.drawing.bitmap.overlaps.short import forks_apart
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.overlaps.tips import open_tips
@@ -36,8 +37,7 @@ from wrapit.drawing.changes import Change, Notice
 from wrapit.drawing.components import LONGEST_LINK, Connected, connect
 from wrapit.drawing.model import Drawing
 from wrapit.errors import DrawingError, Finding
-from wrapit.geometry import BezierChain, FloatArray, unit
-from wrapit.geometry.fitting.fit import Stroke, fit_all
+from wrapit.geometry import BezierChain, FloatArray
 
 # How much of a stair may a curve leave out, at least, and how much of the configured tolerance? Nearly the
 # half that an edge is uncertain by; and less than usual of the other, as the line is off already. With 0.25
@@ -151,6 +151,7 @@ def _traced(
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes
     graph.notices += connected.notices
+    tell_misread(graph, missed, [piece.curve for piece in connected.pieces], width_px)
     return _drawing(graph, connected, picture, size_mm)
 
 
