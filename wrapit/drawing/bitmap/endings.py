@@ -132,7 +132,8 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
     missed = float(np.linalg.norm(on - point))
     if missed < _MISSED * single.width_px:
         return Ending(direction, np.zeros((0, 2)), single.cut + behind)
-    return bent_ending(single, point, passed(single, point, direction, _GENTLY * missed))
+    gently = int(np.searchsorted(single.along, min(_GENTLY * missed, single.length / 2, 3 * single.width_px)))
+    return bent_ending(single, point, max(behind, gently))
 
 
 def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> Ending:
@@ -153,13 +154,13 @@ def bent_ending(arm: Arm, point: FloatArray, behind: int) -> Ending:
     return Ending(unit(bend - point), lead, arm.cut + behind)
 
 
-def passed(arm: Arm, point: FloatArray, tangent: FloatArray, gap: float = 0.0) -> int:
-    """How many of an arm's first points lie nearer than `gap`, or behind the junction, as by doubling back.
+def passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:
+    """How many of an arm's first points lie behind the junction, where a stroke would have to double back.
 
     A junction lies inside an arm where the others pull it there; at most half the arm makes way.
     """
     most = min(len(arm.points) - 1, int(np.searchsorted(arm.along, arm.length / 2)))
-    ahead = (arm.points[: most + 1] - point) @ tangent > gap
+    ahead = (arm.points[: most + 1] - point) @ tangent > 0
     return int(np.argmax(ahead)) if ahead.any() else most
 
 

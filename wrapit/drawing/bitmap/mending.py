@@ -45,8 +45,7 @@ def mended(
         changed = fitted(graph, lines, tried, {strand for strand, _ in leads}, width_px, tolerance)
         trial = curves | changed
         left = misfits(ink.mask, trial, lines, width_px)
-        after = max(_amount(left, at, width_px) for at in (was, place))
-        if after < _LEFT * before:
+        if _total(left) < _total(found) - (1 - _LEFT) * before:
             curves, found, endings = trial, left, tried
         else:
             graph.nodes[node] = was
@@ -68,6 +67,10 @@ def _near(graph: StrandGraph, found: list[Misfit], width_px: float) -> list[int]
 def _is_ink(ink: Ink, at: FloatArray) -> bool:
     """Whether a place is ink."""
     return bool(sample(ink, at[None], np.zeros((1, 2)), np.zeros(1))[0, 0] <= ink.half)
+
+
+def _total(found: list[Misfit]) -> float:
+    return sum(misfit.area for misfit in found)
 
 
 def _amount(found: list[Misfit], at: FloatArray, width_px: float) -> float:
