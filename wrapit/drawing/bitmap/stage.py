@@ -24,8 +24,8 @@ from wrapit.drawing.bitmap.ends.rings import ring_joints
 from wrapit.drawing.bitmap.gaps import close_gaps, cut_tails, drop_short
 from wrapit.drawing.bitmap.hard_edges.pixels import needs_longer_look
 from wrapit.drawing.bitmap.hard_edges.steady import all_steadied
-from wrapit.drawing.bitmap.mending import mended
-from wrapit.drawing.bitmap.misfits import tell_misread
+from wrapit.drawing.bitmap.mending.misfits import misfits, tell_misread
+from wrapit.drawing.bitmap.mending.stage import mended
 from wrapit.drawing.bitmap.overlaps.short import forks_apart
 from wrapit.drawing.bitmap.overlaps.stage import resolve_overlaps
 from wrapit.drawing.bitmap.overlaps.tips import open_tips
@@ -146,7 +146,8 @@ def _traced(
     endings = ended(graph, measured, rings, ink, width_px)
     tolerance = _tolerance(picture, tracing)
     start_loops(graph, steady, endings, width_px)
-    curves, missed = mended(graph, steady, endings, ink, width_px, tolerance)
+    curves = mended(graph, steady, endings, ink, width_px, tolerance)
+    missed = misfits(ink.mask, curves, steady, width_px)
     pieces = [Piece(s.start, s.end, curves[strand]) for strand, s in graph.strands.items()]
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)
     graph.changes += connected.changes

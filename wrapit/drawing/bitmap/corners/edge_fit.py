@@ -93,7 +93,7 @@ def _nearest(
 ) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
     """The side nearest to each of points (n, 2), how far along it, and the way from there (n, 2)."""
     if len(points) * len(course) < _WORTH_PARTING:
-        return _nearest_of_all(chain, course, points)
+        return nearest_of_all(chain, course, points)
     side, share, gap = np.empty(len(points), dtype=np.intp), np.empty(len(points)), np.empty((len(points), 2))
     low, high = np.minimum(chain[:-1], chain[1:]), np.maximum(chain[:-1], chain[1:])
     blocks = np.arange(0, len(points), _AT_ONCE)
@@ -107,12 +107,12 @@ def _nearest(
     close = least <= most.min(axis=1, keepdims=True) * (1 + 1e-9) + 1e-9
     for block, first in enumerate(blocks.tolist()):
         part, near = slice(first, first + _AT_ONCE), np.flatnonzero(close[block])
-        of, share[part], gap[part] = _nearest_of_all(chain[near], course[near], points[part])
+        of, share[part], gap[part] = nearest_of_all(chain[near], course[near], points[part])
         side[part] = near[of]
     return side, share, gap
 
 
-def _nearest_of_all(
+def nearest_of_all(
     starts: FloatArray, course: FloatArray, points: FloatArray
 ) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
     # In x and y apart (sides, n): sums over an axis of two and rows of few sides take several times as long.

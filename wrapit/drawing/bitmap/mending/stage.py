@@ -1,0 +1,93 @@
+"""Joints and corners whose strokes, drawn again, don't have the ink's edges: moved until they do."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.drawing.bitmap.curves import fitted
+from wrapit.drawing.bitmap.ends.rings import Ends
+from wrapit.drawing.bitmap.ink import Ink
+from wrapit.drawing.bitmap.mending.contours import contour, off, rms
+from wrapit.drawing.bitmap.mending.crowd import crowd_at
+from wrapit.drawing.bitmap.strand_graph import StrandGraph
+from wrapit.geometry import BezierChain, FloatArray
+
+# In stroke widths.
+# How far around a joint are edges looked at, and how many are enough to tell?
+_AROUND = 1.3
+_FEWEST = 12
+# When do edges lie elsewhere? With their root mean square above the first; when do they fit? With less than
+# the second, and less than a share of what it was.
+_OFF = 0.05
+_FIT = 0.05
+_LEFT = 0.6
+# How much of what ends alone, and is round or flat there, is left out?
+_CAP = 0.8
+
+
+def mended(
+    graph: StrandGraph,
+    lines: dict[int, Line],
+    endings: Ends,
+    ink: Ink,
+    width_px: float,
+    tolerance: float,
+) -> dict[int, BezierChain]:
+    """The curve of each strand; joints are moved, and lines and endings renewed, where that fits better."""
+    curves = fitted(graph, lines, endings, graph.strands, width_px, tolerance)
+    edge = _edge(graph, ink, width_px)
+    done: set[int] = set()
+    for node in _doubtful(graph, curves, edge, width_px):
+        crowd = None if node in done else crowd_at(graph, lines, curves, endings, node, width_px)
+        if crowd is None:
+            continue
+        done |= set(crowd.nodes)
+        seen = crowd.seen(edge)
+        if len(seen) < _FEWEST:
+            continue
+        places, renewed, leads = crowd.moved(graph, seen)
+        was = {n: graph.nodes[n] for n in places}
+        graph.nodes.update(places)
+        tried = fitted(graph, lines | renewed, endings | leads, crowd.strands, width_px, tolerance)
+        before = rms(off(seen, curves.values(), width_px))
+        after = rms(off(seen, (curves | tried).values(), width_px))
+        if after < min(_FIT, _LEFT * before):
+            curves |= tried
+            lines |= renewed
+            endings |= leads
+        else:
+            graph.nodes.update(was)
+    return curves
+
+
+def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
+    """The ink's edge (n, 2), but for the ends of what ends alone."""
+    from scipy.spatial import cKDTree
+
+    edge = contour(ink)
+    free = [place for node, place in graph.nodes.items() if graph.degree(node) == 1]
+    if not free or not len(edge):
+        return edge
+    return edge[~np.isfinite(cKDTree(free).query(edge, distance_upper_bound=_CAP * width_px)[0])]
+
+
+def _doubtful(
+    graph: StrandGraph, curves: dict[int, BezierChain], edge: FloatArray, width_px: float
+) -> list[int]:
+    """The joints and corners around which curves don't have the ink's edges, the worst first."""
+    from scipy.spatial import cKDTree
+
+    nodes = [node for node in graph.nodes if graph.degree(node) > 1 and not graph.is_seam(node)]
+    if not nodes or not len(edge):
+        return []
+    places = np.array([graph.nodes[node] for node in nodes])
+    near = edge[np.isfinite(cKDTree(places).query(edge, distance_upper_bound=_AROUND * width_px)[0])]
+    if not len(near):
+        return []
+    missed = off(near, curves.values(), width_px)
+    found = []
+    for node, around in zip(nodes, cKDTree(near).query_ball_point(places, _AROUND * width_px), strict=True):
+        if len(around) >= _FEWEST and (bad := rms(missed[around])) > _OFF:
+            found.append((-bad, node))
+    return [node for _, node in sorted(found)]
