@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
+from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry import FloatArray
+from wrapit.geometry.arrays import median
 
 # In stroke widths.
 # How far off is a point that belongs to other ink? As in the edges of corners.
 _OUTLIER = 0.25
-# How finely are curves drawn? A twelfth leaves two thousandths between.
-_FINE = 1 / 12
+# How finely are strokes drawn? A sixth leaves less than a hundredth between.
+FINE = 1 / 6
+# How much may the width of a stroke change that is as broad everywhere?
+_EVEN = 0.12
 
 
 def contour(ink: Ink) -> FloatArray:
@@ -29,14 +31,29 @@ def contour(ink: Ink) -> FloatArray:
     return np.concatenate(found)
 
 
-def off(points: FloatArray, curves: Iterable[BezierChain], width_px: float) -> FloatArray:
-    """How far outside (n,) of the ink of curves points lie, in stroke widths: at its edge nothing."""
+def off(points: FloatArray, drawn: FloatArray, halves: FloatArray) -> FloatArray:
+    """How far outside (n,) of the ink of strokes points lie, in pixels: at its edge nothing.
+
+    `drawn` (m, 2) are points along the strokes, `halves` (m,) half their widths there.
+    """
     from scipy.spatial import cKDTree
 
-    drawn = np.concatenate([curve.sampled(_FINE * width_px) for curve in curves])
-    return np.asarray(cKDTree(drawn).query(points)[0], dtype=np.float64) / width_px - 0.5
+    far, nearest = cKDTree(drawn).query(points)
+    return np.asarray(far - halves[nearest], dtype=np.float64)
+
+
+def half_widths(line: Line, count: int, width_px: float) -> FloatArray:
+    """Half the width (count,) of a strand's ink at even steps along it, from where it stands alone."""
+    known = line.clean & np.isfinite(line.width)
+    if not known.any():
+        # A stroke that is broader than all others is nowhere clean, but as broad everywhere.
+        inner = line.width[len(line.width) // 4 : -(len(line.width) // 4)]
+        even = bool(np.isfinite(inner).all()) and np.ptp(inner) < _EVEN * width_px
+        return np.full(count, (median(inner) if even else width_px) / 2)
+    shares = line.along[known] / max(line.length, 1.0)
+    return np.interp(np.linspace(0, 1, count), shares, line.width[known] / 2)
 
 
 def rms(off_edge: FloatArray) -> float:
-    """Root mean square, with outliers (other ink) bounded."""
+    """Root mean square of what edges are off by in stroke widths, with outliers (other ink) bounded."""
     return float(np.sqrt(np.square(np.minimum(np.abs(off_edge), _OUTLIER)).mean()))

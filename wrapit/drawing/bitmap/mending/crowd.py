@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wrapit.drawing.bitmap.arms import Arm, arm, arms_at
+from wrapit.drawing.bitmap.arms import Arm, arm
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.endings import Ending
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
-from wrapit.drawing.bitmap.mending.web import Between, Outward, Web, parabola_shares
+from wrapit.drawing.bitmap.mending.contours import FINE, half_widths
+from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web, parabola_shares
 from wrapit.drawing.bitmap.strand_graph import StrandEnd, StrandGraph
 from wrapit.geometry import BezierChain, FloatArray, unit
 from wrapit.geometry.polyline import lengths
@@ -28,8 +28,6 @@ _ALONE = 1.5
 # What edges are those of a crowd? Those no farther than this from its strokes, and not much nearer to others.
 _REACH = 1.1
 _OTHERS = 0.3
-# How finely are strokes that stay drawn?
-_FINE = 1 / 6
 # How many points of edges are enough?
 _ENOUGH = 200
 # When do two strokes of a pair go on as one?
@@ -69,8 +67,8 @@ class Crowd:
         width_px = self.web.width_px
         own = cKDTree(np.concatenate(self.web.drawn)).query(edge, distance_upper_bound=_REACH * width_px)[0]
         near = np.flatnonzero(np.isfinite(own))
-        if self.web.fixed and len(near):
-            others = cKDTree(np.concatenate(self.web.fixed)).query(edge[near])[0]
+        if self.web.still and len(near):
+            others = cKDTree(np.concatenate([still.points for still in self.web.still])).query(edge[near])[0]
             near = near[own[near] < others + _OTHERS * width_px]
         return edge[near[:: max(1, len(near) // _ENOUGH)]]
 
@@ -90,7 +88,22 @@ class Crowd:
             at, to = places[each.node], each.arm.points[each.first]
             lead = parabola_shares(_LEAD_STEPS)[1:-1] @ np.stack([at, bend, to])
             endings[each.end] = Ending(unit(bend - at), lead, each.arm.cut + each.first)
+        for node in self.nodes:
+            self._straighten(graph, node, endings)
         return places, lines, endings
+
+
+    def _straighten(self, graph: StrandGraph, node: int, endings: Ends) -> None:
+        """Gives those that go on as one the same direction."""
+        arms = [each.arm for each in self.leaving if each.node == node]
+        if len(arms) != graph.degree(node) or len(arms) < 3:
+            return
+        for one, other in (((arms[i].strand, arms[i].end), (arms[j].strand, arms[j].end)) for i, j in pairs_at(graph, node, arms)):
+            first, second = endings[one].tangent, endings[other].tangent
+            if angle(-first, second) < _ONE_RAD:
+                along = unit(second - first)
+                endings[one] = replace(endings[one], tangent=-along)
+                endings[other] = replace(endings[other], tangent=along)
 
 
 def crowd_at(
@@ -111,10 +124,11 @@ def crowd_at(
     if len(nodes) > _MOST:
         return None
     listed = sorted(nodes)
-    inner, leaving, fixed = [], [], []
+    inner, leaving, still = [], [], []
     between, outward = [], []
     for strand, s in graph.strands.items():
-        drawn = curves[strand].sampled(_FINE * width_px)
+        drawn = curves[strand].sampled(FINE * width_px)
+        halves = half_widths(lines[strand], len(drawn), width_px)
         ends = [(end, n) for end, n in ((0, s.start), (1, s.end)) if n in nodes]
         if len(ends) == 2 and strand in short:
             if s.start == s.end:
@@ -122,7 +136,7 @@ def crowd_at(
             middle = drawn[len(drawn) // 2]
             bend = 2 * middle - (graph.nodes[s.start] + graph.nodes[s.end]) / 2
             inner.append(strand)
-            between.append(Between(listed.index(s.start), listed.index(s.end), bend))
+            between.append(Between(listed.index(s.start), listed.index(s.end), bend, float(halves.mean())))
             continue
         kept = [0, len(drawn)]
         for end, n in ends:
@@ -132,14 +146,14 @@ def crowd_at(
             leaving.append(found)
             to = found.arm.points[found.first]
             direction = found.arm.at(float(found.arm.along[found.first]))[1]
-            outward.append(Outward(listed.index(n), to, direction))
             nearest = int(np.argmin(np.linalg.norm(drawn - to, axis=1)))
+            outward.append(Outward(listed.index(n), to, direction, float(halves[nearest])))
             kept = [nearest, kept[1]] if end == 0 else [kept[0], nearest + 1]
         if kept[1] - kept[0] > 1:
-            fixed.append(drawn[kept[0] : kept[1]])
+            still.append(Still(drawn[slice(*kept)], halves[slice(*kept)]))
     joints = np.array([graph.nodes[n] for n in listed])
     corners = np.array([graph.degree(n) == 2 for n in listed])
-    return Crowd(listed, inner, leaving, Web(joints, corners, between, outward, fixed, width_px))
+    return Crowd(listed, inner, leaving, Web(joints, corners, between, outward, still, width_px))
 
 
 def _leaving(

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
+from wrapit.drawing.bitmap.mending.contours import half_widths
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray, IntArray
-from wrapit.geometry.arrays import median
 
 # In stroke widths, unless the name says otherwise.
 # How far beside its edge may the ink end, or go on? A pen's edge is uneven, and so are stairs of pixels.
@@ -56,7 +56,7 @@ def misfits(
     """
     points = np.concatenate([curve.sampled(_STEP * width_px) for curve in curves.values()])
     half = np.concatenate(
-        [_half_widths(curve.sampled(_STEP * width_px), lines[k], width_px) for k, curve in curves.items()]
+        [half_widths(lines[k], len(curve.sampled(_STEP * width_px)), width_px) for k, curve in curves.items()]
     )
     ends = _ends(curves.values())
     slack = _SLACK * width_px + _SLACK_PX
@@ -99,18 +99,6 @@ def tell_misread(
         graph.tell("warning", "misread", misfit.at, f"{what} (as much as {misfit.area:.1f} of a line's width squared)", remedy)
     if len(misread) > _NAMED:
         graph.tell("warning", "misread", misread[_NAMED].at, f"{len(misread) - _NAMED} more places like this", remedy)
-
-
-def _half_widths(points: FloatArray, line: Line, width_px: float) -> FloatArray:
-    """Half the width (n,) of the ink at points (n, 2) along a strand, from where the strand stands alone."""
-    known = line.clean & np.isfinite(line.width)
-    if not known.any():
-        # A stroke that is broader than all others is nowhere clean, but as broad everywhere.
-        inner = line.width[len(line.width) // 4 : -(len(line.width) // 4)]
-        even = bool(np.isfinite(inner).all()) and np.ptp(inner) < _SLACK * width_px
-        return np.full(len(points), (median(inner) if even else width_px) / 2)
-    shares = line.along[known] / max(line.length, 1.0)
-    return np.interp(np.linspace(0, 1, len(points)), shares, line.width[known] / 2)
 
 
 def _where(mask: NDArray[np.bool_]) -> IntArray:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
 
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.curves import fitted
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.mending.contours import contour, off, rms
+from wrapit.drawing.bitmap.mending.contours import FINE, contour, half_widths, off, rms
 from wrapit.drawing.bitmap.mending.crowd import crowd_at
+from wrapit.drawing.bitmap.mending.web import Still
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray
+from wrapit.geometry.arrays import median
 
 # In stroke widths.
 # How far around a joint are edges looked at, and how many are enough to tell?
@@ -20,8 +24,10 @@ _FEWEST = 12
 # When do edges lie elsewhere? With their root mean square above the first; when do they fit? With less than
 # the second, and less than a share of what it was.
 _OFF = 0.05
-_FIT = 0.05
-_LEFT = 0.6
+_FIT = 0.06
+_LEFT = 0.75
+# A standard deviation, of the median of what is off.
+_DEVIATION = 1.48
 # How much of what ends alone, and is round or flat there, is left out?
 _CAP = 0.8
 
@@ -38,7 +44,7 @@ def mended(
     curves = fitted(graph, lines, endings, graph.strands, width_px, tolerance)
     edge = _edge(graph, ink, width_px)
     done: set[int] = set()
-    for node in _doubtful(graph, curves, edge, width_px):
+    for node in _doubtful(graph, lines, curves, edge, width_px):
         crowd = None if node in done else crowd_at(graph, lines, curves, endings, node, width_px)
         if crowd is None:
             continue
@@ -50,8 +56,10 @@ def mended(
         was = {n: graph.nodes[n] for n in places}
         graph.nodes.update(places)
         tried = fitted(graph, lines | renewed, endings | leads, crowd.strands, width_px, tolerance)
-        before = rms(off(seen, curves.values(), width_px))
-        after = rms(off(seen, (curves | tried).values(), width_px))
+        before, after = (
+            rms(off(seen, *_drawn(some, lines | renewed, crowd.web.near, width_px)) / width_px)
+            for some in ({strand: curves[strand] for strand in crowd.strands}, tried)
+        )
         if after < min(_FIT, _LEFT * before):
             curves |= tried
             lines |= renewed
@@ -59,6 +67,29 @@ def mended(
         else:
             graph.nodes.update(was)
     return curves
+
+
+def _unevenness(lines: Mapping[int, Line], width_px: float) -> float:
+    """How much the widths of strokes differ along each, in stroke widths, as a standard deviation."""
+    apart = [np.zeros(0)]
+    for line in lines.values():
+        known = line.width[line.clean & np.isfinite(line.width)]
+        if len(known):
+            apart.append(np.abs(known - median(known)))
+    every = np.concatenate(apart)
+    return _DEVIATION * median(every) / width_px if len(every) else 0.0
+
+
+def _drawn(
+    curves: Mapping[int, BezierChain], lines: Mapping[int, Line], still: Iterable[Still], width_px: float
+) -> tuple[FloatArray, FloatArray]:
+    """Points (n, 2) along curves and what stays as it is, and half the width (n,) there."""
+    parts = [
+        Still(points, half_widths(lines[strand], len(points), width_px))
+        for strand, points in ((strand, curve.sampled(FINE * width_px)) for strand, curve in curves.items())
+    ]
+    parts += still
+    return np.concatenate([part.points for part in parts]), np.concatenate([part.halves for part in parts])
 
 
 def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
@@ -73,7 +104,11 @@ def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
 
 
 def _doubtful(
-    graph: StrandGraph, curves: dict[int, BezierChain], edge: FloatArray, width_px: float
+    graph: StrandGraph,
+    lines: Mapping[int, Line],
+    curves: Mapping[int, BezierChain],
+    edge: FloatArray,
+    width_px: float,
 ) -> list[int]:
     """The joints and corners around which curves don't have the ink's edges, the worst first."""
     from scipy.spatial import cKDTree
@@ -85,9 +120,10 @@ def _doubtful(
     near = edge[np.isfinite(cKDTree(places).query(edge, distance_upper_bound=_AROUND * width_px)[0])]
     if not len(near):
         return []
-    missed = off(near, curves.values(), width_px)
+    missed = off(near, *_drawn(curves, lines, [], width_px)) / width_px
+    most = max(_OFF, _unevenness(lines, width_px))
     found = []
     for node, around in zip(nodes, cKDTree(near).query_ball_point(places, _AROUND * width_px), strict=True):
-        if len(around) >= _FEWEST and (bad := rms(missed[around])) > _OFF:
+        if len(around) >= _FEWEST and (bad := rms(missed[around])) > most:
             found.append((-bad, node))
     return [node for _, node in sorted(found)]

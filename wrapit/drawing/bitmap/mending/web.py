@@ -28,7 +28,9 @@ _MITRE = 0.2
 _NEAR = 2.5
 # How long may the bent part of a stroke be, in shares of the way from the joint to where it stands alone?
 _BEND = (0.15, 1.0)
-_ROUNDS = 30
+# When has it settled?
+_SETTLED = 1e-3
+_ROUNDS = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +40,7 @@ class Between:
     start: int
     end: int
     bend: FloatArray
+    half: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,17 +50,26 @@ class Outward:
     joint: int
     to: FloatArray
     direction: FloatArray
+    half: float
+
+
+@dataclass(frozen=True, eq=False)
+class Still:
+    """A stroke that stays as it is: points (n, 2) and half its width (n,) there."""
+
+    points: FloatArray
+    halves: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
 class Web:
-    """Joints (n, 2), some of them corners (n,), with their strokes, and polylines that stay as they are."""
+    """Joints (n, 2), some of them corners (n,), with their strokes, and those that stay as they are."""
 
     joints: FloatArray
     corners: FloatArray
     between: list[Between]
     outward: list[Outward]
-    fixed: list[FloatArray]
+    still: list[Still]
     width_px: float
 
     def settled(self, edge: FloatArray) -> tuple[FloatArray, list[FloatArray], list[FloatArray]]:
@@ -80,6 +92,8 @@ class Web:
             bounds=(low, high),
             loss="soft_l1",
             f_scale=_DOUBTED,
+            ftol=_SETTLED,
+            xtol=_SETTLED,
             max_nfev=_ROUNDS,
         )
         return self._read(found.x)
@@ -111,15 +125,18 @@ class Web:
     def _bend(self, out: Outward) -> FloatArray:
         return out.to - float(np.linalg.norm(out.to - self.joints[out.joint])) / 2 * out.direction
 
-    def _near(self) -> list[FloatArray]:
+    @cached_property
+    def near(self) -> list[Still]:
         """What stays as it is, as far as it may have edges in common with what moves."""
         from scipy.spatial import cKDTree
 
         tree = cKDTree(np.concatenate(self.drawn))
         parts = []
-        for points in self.fixed:
-            far = ~np.isfinite(tree.query(points, distance_upper_bound=_NEAR * self.width_px)[0])
-            parts += [part for part in np.split(points, np.flatnonzero(far)) if len(part) > 1]
+        for still in self.still:
+            near = np.isfinite(tree.query(still.points, distance_upper_bound=_NEAR * self.width_px)[0])
+            changes = np.flatnonzero(np.diff(near)) + 1
+            runs = zip(np.split(still.points, changes), np.split(still.halves, changes), strict=True)
+            parts += [Still(*run) for run in list(runs)[0 if near[0] else 1 :: 2] if len(run[0]) > 1]
         return parts
 
     def _model(self) -> _Model:
@@ -143,12 +160,16 @@ class Web:
             lines.append((points, np.stack([free(out.joint), bend, still])))
         shares = parabola_shares(_STEPS)
         drawn = [(shares @ points, np.tensordot(shares, moves, 1)) for points, moves in lines]
-        drawn += [(points, np.zeros((len(points), 2, count))) for points in self._near()]
+        halves = [np.full(_STEPS, each.half) for each in (*self.between, *self.outward)]
+        for part in self.near:
+            drawn.append((part.points, np.zeros((len(part.points), 2, count))))
+            halves.append(part.halves[1:])
         return _Model(
             np.concatenate([points[:-1] for points, _ in drawn]),
             np.concatenate([points[1:] for points, _ in drawn]),
             np.concatenate([moves[:-1] for _, moves in drawn]),
             np.concatenate([moves[1:] for _, moves in drawn]),
+            np.concatenate(halves),
             np.flatnonzero(self.corners),
             self.joints,
             self.width_px,
@@ -163,6 +184,7 @@ class _Model:
     ends: FloatArray
     start_moves: FloatArray
     end_moves: FloatArray
+    halves: FloatArray
     corners: IntArray
     joints: FloatArray
     width_px: float
@@ -173,7 +195,7 @@ class _Model:
         ends = self.ends + self.end_moves @ x
         side, share, gap = nearest_of_all(starts, ends - starts, edge)
         distance = np.linalg.norm(gap, axis=1)
-        off = distance / self.width_px - 0.5
+        off = (distance - self.halves[side]) / self.width_px
         weight = np.ones(len(off))
         for corner in self.corners:
             at = self.joints[corner] + self.width_px * x[2 * corner : 2 * corner + 2]
