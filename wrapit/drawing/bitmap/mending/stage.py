@@ -24,7 +24,7 @@ _FEWEST = 12
 # When do edges lie elsewhere? With their root mean square above the first; when do they fit? With less than
 # the second, and less than a share of what it was.
 _OFF = 0.05
-_FIT = 0.06
+_FIT = 0.07
 _LEFT = 0.75
 # A standard deviation, of the median of what is off.
 _DEVIATION = 1.48
