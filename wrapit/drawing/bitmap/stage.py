@@ -146,7 +146,7 @@ def _traced(
     endings = ended(graph, measured, rings, ink, width_px)
     tolerance = _tolerance(picture, tracing)
     start_loops(graph, steady, endings, width_px)
-    curves = mended(graph, steady, endings, ink, width_px, tolerance)
+    curves = mended(graph, steady, endings, rings, ink, width_px, tolerance)
     missed = misfits(ink.mask, curves, steady, width_px)
     pieces = [Piece(s.start, s.end, curves[strand]) for strand, s in graph.strands.items()]
     connected = connect(graph.nodes, pieces, tracing.components, LONGEST_LINK * size_px)

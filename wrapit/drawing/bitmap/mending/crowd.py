@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,10 +12,9 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.endings import Ending
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
-from wrapit.drawing.bitmap.mending.contours import FINE, half_widths
 from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web, parabola_shares
 from wrapit.drawing.bitmap.strand_graph import StrandEnd, StrandGraph
-from wrapit.geometry import BezierChain, FloatArray, unit
+from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle
 
@@ -23,6 +22,8 @@ from wrapit.geometry.polynomials import angle
 # Which strokes make one crowd of their joints, and how many joints has it at most?
 _SHORT = 2.5
 _MOST = 5
+# How far off may strokes that stay have edges in common with those of a crowd?
+_NEAR = 2.5
 # Where does a stroke that leaves stand alone? So far from the joint, in its arm.
 _ALONE = 1.5
 # What edges are those of a crowd? Those no farther than this from its strokes, and not much nearer to others.
@@ -38,17 +39,22 @@ _STEPS, _LEAD_STEPS = 16, 8
 
 @dataclass(frozen=True, eq=False)
 class _Leaving:
-    """A strand that leaves a crowd: its end there, its arm, and the arm's point from which on it stays."""
+    """A strand that leaves a crowd at a node: its end there, its arm, and the arm's point from which on it stays."""
 
     end: StrandEnd
     node: int
     arm: Arm
     first: int
 
+    @property
+    def to(self) -> FloatArray:
+        """The place from which on it stays."""
+        return self.arm.points[self.first]
+
 
 @dataclass(frozen=True, eq=False)
 class Crowd:
-    """The `nodes` of a crowd, the strands `inner` between them, those `leaving`, and what stays (n, 2) of curves."""
+    """The `nodes` of a crowd, the strands `inner` between them, those that leave, and all as a web."""
 
     nodes: list[int]
     inner: list[int]
@@ -72,88 +78,112 @@ class Crowd:
             near = near[own[near] < others + _OTHERS * width_px]
         return edge[near[:: max(1, len(near) // _ENOUGH)]]
 
-    def moved(self, graph: StrandGraph, edge: FloatArray) -> tuple[dict[int, FloatArray], dict[int, Line], Ends]:
-        """Places of the nodes, lines of the strands between, and endings, with which edges (n, 2) fit best."""
+    def moved(self, graph: StrandGraph, edge: FloatArray) -> Moved:
+        """The crowd where edges (n, 2) fit best."""
         joints, between, outward = self.web.settled(edge)
         places = dict(zip(self.nodes, joints, strict=True))
         lines, endings = {}, {}
-        for strand, bend in zip(self.inner, between, strict=True):
+        for strand, bend, was in zip(self.inner, between, self.web.between, strict=True):
             s = graph.strands[strand]
             points = parabola_shares(_STEPS) @ np.stack([places[s.start], bend, places[s.end]])
-            known = np.ones(len(points), dtype=np.bool_)
-            lines[strand] = Line(points, known * self.web.width_px, known, lengths(points))
+            width = np.full(len(points), 2 * was.half)
+            lines[strand] = Line(points, width, np.ones(len(points), dtype=np.bool_), lengths(points))
             for end, node in ((0, s.start), (1, s.end)):
                 endings[strand, end] = Ending(unit(bend - places[node]), np.zeros((0, 2)), 1)
         for each, bend in zip(self.leaving, outward, strict=True):
-            at, to = places[each.node], each.arm.points[each.first]
-            lead = parabola_shares(_LEAD_STEPS)[1:-1] @ np.stack([at, bend, to])
+            at = places[each.node]
+            lead = parabola_shares(_LEAD_STEPS)[1:-1] @ np.stack([at, bend, each.to])
             endings[each.end] = Ending(unit(bend - at), lead, each.arm.cut + each.first)
+        for one, other in self._pairs(graph):
+            endings |= _straightened(endings, one, other)
+        return Moved(places, lines, endings)
+
+    def _pairs(self, graph: StrandGraph) -> list[tuple[StrandEnd, StrandEnd]]:
+        """Which strand ends continue each other, at nodes that all strands leave."""
+        found = []
         for node in self.nodes:
-            self._straighten(graph, node, endings)
-        return places, lines, endings
+            arms = [each.arm for each in self.leaving if each.node == node]
+            if len(arms) == graph.degree(node) > 2:
+                ends = [(each.strand, each.end) for each in arms]
+                found += [(ends[i], ends[j]) for i, j in pairs_at(graph, node, arms)]
+        return found
 
 
-    def _straighten(self, graph: StrandGraph, node: int, endings: Ends) -> None:
-        """Gives those that go on as one the same direction."""
-        arms = [each.arm for each in self.leaving if each.node == node]
-        if len(arms) != graph.degree(node) or len(arms) < 3:
-            return
-        for one, other in (((arms[i].strand, arms[i].end), (arms[j].strand, arms[j].end)) for i, j in pairs_at(graph, node, arms)):
-            first, second = endings[one].tangent, endings[other].tangent
-            if angle(-first, second) < _ONE_RAD:
-                along = unit(second - first)
-                endings[one] = replace(endings[one], tangent=-along)
-                endings[other] = replace(endings[other], tangent=along)
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """New places of nodes, and what is new with them: lines of strands between, and endings."""
+
+    places: dict[int, FloatArray]
+    lines: dict[int, Line]
+    endings: Ends
+
+
+def _straightened(endings: Ends, one: StrandEnd, other: StrandEnd) -> Ends:
+    """Two endings with one direction, if they nearly have."""
+    first, second = endings[one].tangent, endings[other].tangent
+    if angle(-first, second) > _ONE_RAD:
+        return {}
+    along = unit(second - first)
+    return {one: replace(endings[one], tangent=-along), other: replace(endings[other], tangent=along)}
 
 
 def crowd_at(
     graph: StrandGraph,
     lines: Mapping[int, Line],
-    curves: Mapping[int, BezierChain],
+    drawn: Mapping[int, Still],
     endings: Ends,
     node: int,
+    kept: Collection[int],
     width_px: float,
 ) -> Crowd | None:
-    """The crowd of a node; nothing where it is too large, or leaves no strokes to stand on."""
-    short = {s for s in graph.strands if min(lines[s].length, curves[s].length) < _SHORT * width_px}
-    nodes = {node}
-    for strand in short:
-        s = graph.strands[strand]
-        if s.start in nodes or s.end in nodes:
-            nodes |= {n for n in (s.start, s.end) if graph.degree(n) > 1 and not graph.is_seam(n)}
-    if len(nodes) > _MOST:
-        return None
-    listed = sorted(nodes)
-    inner, leaving, still = [], [], []
-    between, outward = [], []
-    for strand, s in graph.strands.items():
-        drawn = curves[strand].sampled(FINE * width_px)
-        halves = half_widths(lines[strand], len(drawn), width_px)
+    """The crowd of a node, without nodes that are `kept`; nothing where its strokes stand alone nowhere."""
+    nodes = _nodes(graph, drawn, node, kept, width_px)
+    inner, between, leaving, outward, still = [], [], [], [], []
+    own = {strand for n in nodes for strand, _ in graph.ends_at(n)}
+    for strand in sorted(own):
+        s, line, stroke = graph.strands[strand], lines[strand], drawn[strand]
         ends = [(end, n) for end, n in ((0, s.start), (1, s.end)) if n in nodes]
-        if len(ends) == 2 and strand in short:
-            if s.start == s.end:
-                return None
-            middle = drawn[len(drawn) // 2]
+        if len(ends) == 2 and s.start != s.end and stroke.length < _SHORT * width_px:
+            middle = stroke.points[len(stroke.points) // 2]
             bend = 2 * middle - (graph.nodes[s.start] + graph.nodes[s.end]) / 2
             inner.append(strand)
-            between.append(Between(listed.index(s.start), listed.index(s.end), bend, float(halves.mean())))
+            between.append(
+                Between(nodes.index(s.start), nodes.index(s.end), bend, float(stroke.halves.mean()))
+            )
             continue
-        kept = [0, len(drawn)]
+        first, last = 0, len(stroke.points)
         for end, n in ends:
-            found = _leaving(graph, lines[strand], endings, (strand, end), n, len(ends) == 2, width_px)
+            found = _leaving(graph, line, endings, (strand, end), n, len(ends) == 2, width_px)
             if found is None:
                 return None
-            leaving.append(found)
-            to = found.arm.points[found.first]
             direction = found.arm.at(float(found.arm.along[found.first]))[1]
-            nearest = int(np.argmin(np.linalg.norm(drawn - to, axis=1)))
-            outward.append(Outward(listed.index(n), to, direction, float(halves[nearest])))
-            kept = [nearest, kept[1]] if end == 0 else [kept[0], nearest + 1]
-        if kept[1] - kept[0] > 1:
-            still.append(Still(drawn[slice(*kept)], halves[slice(*kept)]))
-    joints = np.array([graph.nodes[n] for n in listed])
-    corners = np.array([graph.degree(n) == 2 for n in listed])
-    return Crowd(listed, inner, leaving, Web(joints, corners, between, outward, still, width_px))
+            nearest = int(np.argmin(np.linalg.norm(stroke.points - found.to, axis=1)))
+            leaving.append(found)
+            outward.append(Outward(nodes.index(n), found.to, direction, float(stroke.halves[nearest])))
+            first, last = (nearest, last) if end == 0 else (first, nearest + 1)
+        still.append(stroke.part(first, last))
+    joints = np.array([graph.nodes[n] for n in nodes])
+    corners = np.array([graph.degree(n) == 2 for n in nodes])
+    moving = np.concatenate([joints, *(out.to[None] for out in outward)])
+    low, high = moving.min(axis=0) - _NEAR * width_px, moving.max(axis=0) + _NEAR * width_px
+    still += [stroke for strand, stroke in drawn.items() if strand not in own and stroke.reaches(low, high)]
+    still = [stroke for stroke in still if len(stroke.points) > 1]
+    return Crowd(nodes, inner, leaving, Web(joints, corners, between, outward, still, width_px))
+
+
+def _nodes(
+    graph: StrandGraph, drawn: Mapping[int, Still], node: int, kept: Collection[int], width_px: float
+) -> list[int]:
+    """A node and those that short strokes join with it, but no more than a crowd has."""
+    nodes, added = {node}, {node}
+    while added:
+        ends = [(strand, end) for n in sorted(added) for strand, end in graph.ends_at(n)]
+        others = {graph.other_node(*each) for each in ends if drawn[each[0]].length < _SHORT * width_px}
+        added = {n for n in others - nodes if graph.degree(n) > 1 and n not in kept and not graph.is_seam(n)}
+        if len(nodes | added) > _MOST:
+            break
+        nodes |= added
+    return sorted(nodes)
 
 
 def _leaving(

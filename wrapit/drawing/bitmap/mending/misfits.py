@@ -75,9 +75,7 @@ def misfits(
     return sorted(found, key=lambda misfit: (-misfit.area, *misfit.at))
 
 
-def tell_misread(
-    graph: StrandGraph, found: list[Misfit], kept: list[BezierChain], width_px: float
-) -> None:
+def tell_misread(graph: StrandGraph, found: list[Misfit], kept: list[BezierChain], width_px: float) -> None:
     """Names the places where the lines that are kept were misread, the worst first."""
     drawn = np.concatenate([curve.sampled(width_px) for curve in kept])
     closed = [np.array(notice.at_px) for notice in graph.notices if notice.code == "gap-closed"]
@@ -96,9 +94,17 @@ def tell_misread(
     remedy = "look at it in the preview; lines are read best that lie some widths apart, so draw it larger"
     for misfit in misread[:_NAMED]:
         what = "a line was read where there is no ink" if misfit.bare else "some ink is not what was read"
-        graph.tell("warning", "misread", misfit.at, f"{what} (as much as {misfit.area:.1f} of a line's width squared)", remedy)
+        graph.tell(
+            "warning",
+            "misread",
+            misfit.at,
+            f"{what} (as much as {misfit.area:.1f} of a line's width squared)",
+            remedy,
+        )
     if len(misread) > _NAMED:
-        graph.tell("warning", "misread", misread[_NAMED].at, f"{len(misread) - _NAMED} more places like this", remedy)
+        graph.tell(
+            "warning", "misread", misread[_NAMED].at, f"{len(misread) - _NAMED} more places like this", remedy
+        )
 
 
 def _where(mask: NDArray[np.bool_]) -> IntArray:
@@ -133,7 +139,9 @@ def _ends(curves: Iterable[BezierChain]) -> tuple[FloatArray, FloatArray]:
     return np.array([place for place, _ in ends]), np.array([inwards for _, inwards in ends])
 
 
-def _off_free_ends(points: FloatArray, ends: tuple[FloatArray, FloatArray], reach: float) -> NDArray[np.bool_]:
+def _off_free_ends(
+    points: FloatArray, ends: tuple[FloatArray, FloatArray], reach: float
+) -> NDArray[np.bool_]:
     """Which points (n, 2) are farther than that from where a curve ends alone."""
     from scipy.spatial import cKDTree
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -36,37 +36,56 @@ def mended(
     graph: StrandGraph,
     lines: dict[int, Line],
     endings: Ends,
+    kept: Collection[int],
     ink: Ink,
     width_px: float,
     tolerance: float,
 ) -> dict[int, BezierChain]:
-    """The curve of each strand; joints are moved, and lines and endings renewed, where that fits better."""
+    """The curve of each strand; joints are moved, and lines and endings renewed, where that fits better.
+
+    Nodes that are `kept` stay where they are.
+    """
     curves = fitted(graph, lines, endings, graph.strands, width_px, tolerance)
+    drawn = _drawn(curves, lines, width_px)
     edge = _edge(graph, ink, width_px)
-    done: set[int] = set()
-    for node in _doubtful(graph, lines, curves, edge, width_px):
-        crowd = None if node in done else crowd_at(graph, lines, curves, endings, node, width_px)
+    done = set(kept)
+    for node in _doubtful(graph, lines, drawn, edge, width_px):
+        crowd = None if node in done else crowd_at(graph, lines, drawn, endings, node, kept, width_px)
         if crowd is None:
             continue
         done |= set(crowd.nodes)
         seen = crowd.seen(edge)
         if len(seen) < _FEWEST:
             continue
-        places, renewed, leads = crowd.moved(graph, seen)
-        was = {n: graph.nodes[n] for n in places}
-        graph.nodes.update(places)
-        tried = fitted(graph, lines | renewed, endings | leads, crowd.strands, width_px, tolerance)
+        moved = crowd.moved(graph, seen)
+        was = {n: graph.nodes[n] for n in crowd.nodes}
+        graph.nodes.update(moved.places)
+        new = fitted(graph, lines | moved.lines, endings | moved.endings, crowd.strands, width_px, tolerance)
+        tried = _drawn(new, lines | moved.lines, width_px)
         before, after = (
-            rms(off(seen, *_drawn(some, lines | renewed, crowd.web.near, width_px)) / width_px)
-            for some in ({strand: curves[strand] for strand in crowd.strands}, tried)
+            _missed(seen, [*(some[strand] for strand in crowd.strands), *crowd.web.near], width_px)
+            for some in (drawn, tried)
         )
-        if after < min(_FIT, _LEFT * before):
-            curves |= tried
-            lines |= renewed
-            endings |= leads
+        if rms(after) < min(_FIT, _LEFT * rms(before)):
+            curves |= new
+            drawn |= tried
+            lines |= moved.lines
+            endings |= moved.endings
         else:
             graph.nodes.update(was)
     return curves
+
+
+def _drawn(curves: Mapping[int, BezierChain], lines: Mapping[int, Line], width_px: float) -> dict[int, Still]:
+    """Each strand's stroke as it is now."""
+    points = {strand: curve.sampled(FINE * width_px) for strand, curve in curves.items()}
+    return {k: Still(each, half_widths(lines[k], len(each), width_px)) for k, each in points.items()}
+
+
+def _missed(edge: FloatArray, strokes: Collection[Still], width_px: float) -> FloatArray:
+    """How far outside (n,) of the ink of strokes edges lie, in stroke widths."""
+    points = np.concatenate([stroke.points for stroke in strokes])
+    return off(edge, points, np.concatenate([stroke.halves for stroke in strokes])) / width_px
 
 
 def _unevenness(lines: Mapping[int, Line], width_px: float) -> float:
@@ -78,18 +97,6 @@ def _unevenness(lines: Mapping[int, Line], width_px: float) -> float:
             apart.append(np.abs(known - median(known)))
     every = np.concatenate(apart)
     return _DEVIATION * median(every) / width_px if len(every) else 0.0
-
-
-def _drawn(
-    curves: Mapping[int, BezierChain], lines: Mapping[int, Line], still: Iterable[Still], width_px: float
-) -> tuple[FloatArray, FloatArray]:
-    """Points (n, 2) along curves and what stays as it is, and half the width (n,) there."""
-    parts = [
-        Still(points, half_widths(lines[strand], len(points), width_px))
-        for strand, points in ((strand, curve.sampled(FINE * width_px)) for strand, curve in curves.items())
-    ]
-    parts += still
-    return np.concatenate([part.points for part in parts]), np.concatenate([part.halves for part in parts])
 
 
 def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
@@ -106,7 +113,7 @@ def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
 def _doubtful(
     graph: StrandGraph,
     lines: Mapping[int, Line],
-    curves: Mapping[int, BezierChain],
+    drawn: Mapping[int, Still],
     edge: FloatArray,
     width_px: float,
 ) -> list[int]:
@@ -120,7 +127,7 @@ def _doubtful(
     near = edge[np.isfinite(cKDTree(places).query(edge, distance_upper_bound=_AROUND * width_px)[0])]
     if not len(near):
         return []
-    missed = off(near, *_drawn(curves, lines, [], width_px)) / width_px
+    missed = _missed(near, drawn.values(), width_px)
     most = max(_OFF, _unevenness(lines, width_px))
     found = []
     for node, around in zip(nodes, cKDTree(near).query_ball_point(places, _AROUND * width_px), strict=True):

@@ -13,6 +13,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.corners.edge_fit import nearest_of_all
 from wrapit.geometry import FloatArray, IntArray
+from wrapit.geometry.polyline import total_length
 
 # In how many steps is a parabola drawn?
 _STEPS = 8
@@ -55,10 +56,27 @@ class Outward:
 
 @dataclass(frozen=True, eq=False)
 class Still:
-    """A stroke that stays as it is: points (n, 2) and half its width (n,) there."""
+    """A stroke as it is: points (n, 2) along it, and half its width (n,) there."""
 
     points: FloatArray
     halves: FloatArray
+
+    @cached_property
+    def length(self) -> float:
+        """Length in pixels."""
+        return total_length(self.points)
+
+    @cached_property
+    def _box(self) -> tuple[FloatArray, FloatArray]:
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    def reaches(self, low: FloatArray, high: FloatArray) -> bool:
+        """Whether its box reaches into another, from `low` to `high` (2,)."""
+        return bool((self._box[0] <= high).all() and (self._box[1] >= low).all())
+
+    def part(self, first: int, last: int) -> Still:
+        """From one of its points to before another."""
+        return Still(self.points[first:last], self.halves[first:last])
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +125,9 @@ class Web:
         return [shares @ np.stack(points) for points in (*between, *outward)]
 
     def _bounds(self) -> tuple[FloatArray, FloatArray]:
-        ways = [float(np.linalg.norm(out.to - self.joints[out.joint])) / self.width_px for out in self.outward]
+        ways = [
+            float(np.linalg.norm(out.to - self.joints[out.joint])) / self.width_px for out in self.outward
+        ]
         free = np.full(2 * (len(self.joints) + len(self.between)), _FARTHEST)
         shares = [np.array([(share - 0.5) * way for way in ways]) for share in _BEND]
         return np.concatenate([-free, shares[0]]), np.concatenate([free, shares[1]])
@@ -115,7 +135,9 @@ class Web:
     def _read(self, x: FloatArray) -> tuple[FloatArray, list[FloatArray], list[FloatArray]]:
         moved = x[: 2 * (len(self.joints) + len(self.between))].reshape(-1, 2) * self.width_px
         joints = self.joints + moved[: len(self.joints)]
-        between = [each.bend + step for each, step in zip(self.between, moved[len(self.joints) :], strict=True)]
+        between = [
+            each.bend + step for each, step in zip(self.between, moved[len(self.joints) :], strict=True)
+        ]
         outward = [
             self._bend(out) - length * self.width_px * out.direction
             for out, length in zip(self.outward, x[len(x) - len(self.outward) :], strict=True)
