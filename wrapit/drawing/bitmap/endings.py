@@ -30,7 +30,7 @@ _PRIOR_OF_KNOWN = 2.0
 # on real drawings the farthest is 3.1, while nearly parallel strokes "met" a hundred widths off.
 _ASTRAY = 4.0
 # When does a single arm miss the junction? By more than this, in stroke widths: then it bends there over so
-# many times what it misses by, as an S in the little ink between would be no stroke's. Leads are drawn finely.
+# many times what it misses by, as an S in the little ink between would be none that a pen drew.
 _MISSED = 0.1
 _GENTLY = 5.0
 _FINE = 0.25

@@ -22,7 +22,7 @@ from wrapit.geometry.polynomials import angle
 # Which strokes make one crowd of their joints, and how many joints has it at most?
 _SHORT = 2.5
 _MOST = 5
-# How far off may strokes that stay have edges in common with those of a crowd?
+# How far around a crowd are strokes looked for that may have edges in common with its own?
 _NEAR = 2.5
 # Where does a stroke that leaves stand alone? So far from the joint, in its arm.
 _ALONE = 1.5
@@ -39,7 +39,7 @@ _STEPS, _LEAD_STEPS = 16, 8
 
 @dataclass(frozen=True, eq=False)
 class _Leaving:
-    """A strand that leaves a crowd at a node: its end there, its arm, and the arm's point from which on it stays."""
+    """A strand that leaves a crowd at a node: its arm there, and the arm's point from which on it stays."""
 
     end: StrandEnd
     node: int
@@ -71,7 +71,7 @@ class Crowd:
         from scipy.spatial import cKDTree
 
         width_px = self.web.width_px
-        own = cKDTree(np.concatenate(self.web.drawn)).query(edge, distance_upper_bound=_REACH * width_px)[0]
+        own = cKDTree(self.web.drawn).query(edge, distance_upper_bound=_REACH * width_px)[0]
         near = np.flatnonzero(np.isfinite(own))
         if self.web.still and len(near):
             others = cKDTree(np.concatenate([still.points for still in self.web.still])).query(edge[near])[0]
@@ -86,7 +86,7 @@ class Crowd:
         for strand, bend, was in zip(self.inner, between, self.web.between, strict=True):
             s = graph.strands[strand]
             points = parabola_shares(_STEPS) @ np.stack([places[s.start], bend, places[s.end]])
-            width = np.full(len(points), 2 * was.half)
+            width = np.full(len(points), 2 * was.half_px)
             lines[strand] = Line(points, width, np.ones(len(points), dtype=np.bool_), lengths(points))
             for end, node in ((0, s.start), (1, s.end)):
                 endings[strand, end] = Ending(unit(bend - places[node]), np.zeros((0, 2)), 1)
@@ -163,7 +163,7 @@ def crowd_at(
             first, last = (nearest, last) if end == 0 else (first, nearest + 1)
         still.append(stroke.part(first, last))
     joints = np.array([graph.nodes[n] for n in nodes])
-    corners = np.array([graph.degree(n) == 2 for n in nodes])
+    corners = [k for k, n in enumerate(nodes) if graph.degree(n) == 2]
     moving = np.concatenate([joints, *(out.to[None] for out in outward)])
     low, high = moving.min(axis=0) - _NEAR * width_px, moving.max(axis=0) + _NEAR * width_px
     still += [stroke for strand, stroke in drawn.items() if strand not in own and stroke.reaches(low, high)]

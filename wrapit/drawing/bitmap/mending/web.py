@@ -1,34 +1,36 @@
-"""Joints that lie close together, and the strokes between and around them: moved until their edges fit the ink.
+"""Joints close together, and the strokes between and around them: moved until their edges are the ink's.
 
-As a chain of sides in a crowd of corners, but with joints: each stroke is a parabola, which ends in a joint
-that moves or where the stroke stands alone. All points of them are linear in what moves.
+What chains of sides are to crowds of corners, but with joints: each stroke is a parabola from a joint to
+another one, or to where it stands alone. All points of them are linear in what moves.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from wrapit.drawing.bitmap.corners.edge_fit import nearest_of_all
-from wrapit.geometry import FloatArray, IntArray
+from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import total_length
 
 # In how many steps is a parabola drawn?
 _STEPS = 8
 # In stroke widths.
-# How far may a joint move? As far as thinning may pull it.
+# How far may a joint move? As far as thinning may pull it; 0.8 does as well.
 _FARTHEST = 1.2
-# What is off by more says less and less; and what moves is held back by a fiftieth, so that the sum is regular.
+# From what on does an edge that is off say less and less? And how much is what moves held back, so that the
+# sum is regular?
 _DOUBTED = 0.08
 _HELD = 0.02
-# How much says ink beside a corner, or a tip, which may be a mitre's?
+# How much says an edge behind a corner, where there may be a mitre?
 _MITRE = 0.2
-# How far off may what stays as it is have edges in common with what moves?
+# How far off may strokes that stay have edges in common with those that move?
 _NEAR = 2.5
-# How long may the bent part of a stroke be, in shares of the way from the joint to where it stands alone?
-_BEND = (0.15, 1.0)
+# Where between its joint and where it stands alone may a stroke bend? With 0.15 and 1 some end in a hook.
+_BEND = (0.3, 0.7)
 # When has it settled?
 _SETTLED = 1e-3
 _ROUNDS = 20
@@ -36,12 +38,12 @@ _ROUNDS = 20
 
 @dataclass(frozen=True, eq=False)
 class Between:
-    """A stroke between two joints (by their places in the list) by a point (2,) that it bends towards."""
+    """A stroke between two joints (by their places in the list), which bends towards a point (2,)."""
 
     start: int
     end: int
     bend: FloatArray
-    half: float
+    half_px: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +53,7 @@ class Outward:
     joint: int
     to: FloatArray
     direction: FloatArray
-    half: float
+    half_px: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,152 +83,124 @@ class Still:
 
 @dataclass(frozen=True, eq=False)
 class Web:
-    """Joints (n, 2), some of them corners (n,), with their strokes, and those that stay as they are."""
+    """Joints (n, 2), some of them `corners`, with their strokes, and strokes near by that stay as they are."""
 
     joints: FloatArray
-    corners: FloatArray
+    corners: list[int]
     between: list[Between]
     outward: list[Outward]
     still: list[Still]
     width_px: float
 
-    def settled(self, edge: FloatArray) -> tuple[FloatArray, list[FloatArray], list[FloatArray]]:
-        """The joints (n, 2) and bends, between and outward, with which the strokes' edges lie at `edge` (m, 2)."""
+    @cached_property
+    def drawn(self) -> FloatArray:
+        """Points (n, 2) along the strokes that move, as they are."""
+        return np.concatenate(parabola_shares(_STEPS) @ self._controls)
+
+    @cached_property
+    def near(self) -> list[Still]:
+        """What stays, as far as it may have edges in common with that."""
+        from scipy.spatial import cKDTree
+
+        tree = cKDTree(self.drawn)
+        parts = []
+        for still in self.still:
+            reached = tree.query(still.points, distance_upper_bound=_NEAR * self.width_px)[0] < np.inf
+            bounds = [0, *(np.flatnonzero(np.diff(reached)) + 1), len(reached)]
+            runs = [(first, last) for first, last in pairwise(bounds) if reached[first] and last - first > 1]
+            parts += [still.part(*run) for run in runs]
+        return parts
+
+    def settled(self, edge: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The joints (n, 2) and bends (m, 2), between and outward, with which edges (k, 2) fit best.
+
+        The method is that of Levenberg and Marquardt; what is off by much counts as its root does.
+        """
         from scipy.optimize import least_squares
 
-        model = self._model()
-        low, high = self._bounds()
-
-        def cost(x: FloatArray) -> FloatArray:
-            return np.concatenate([model.off(x, edge)[0], _HELD * x])
-
-        def slopes(x: FloatArray) -> FloatArray:
-            return np.concatenate([model.off(x, edge)[1], _HELD * np.eye(len(x))])
-
-        found = least_squares(
-            cost,
-            np.zeros(len(low)),
-            slopes,
-            bounds=(low, high),
+        sides, held = self._sides(), _HELD * np.eye(self._count)
+        free = np.full(2 * (len(self.joints) + len(self.between)), _FARTHEST)
+        far = np.array([np.linalg.norm(out.to - self.joints[out.joint]) for out in self.outward])
+        low, high = ((share - 0.5) * far / self.width_px for share in _BEND)
+        x = least_squares(
+            lambda x: np.concatenate([self._off(x, sides, edge)[0], held @ x]),
+            np.zeros(self._count),
+            lambda x: np.concatenate([self._off(x, sides, edge)[1], held]),
+            bounds=(np.concatenate([-free, low]), np.concatenate([free, high])),
             loss="soft_l1",
             f_scale=_DOUBTED,
             ftol=_SETTLED,
             xtol=_SETTLED,
             max_nfev=_ROUNDS,
-        )
-        return self._read(found.x)
+        ).x
+        joints = self.joints + self.width_px * x[: self.joints.size].reshape(-1, 2)
+        bends = self._controls[:, 1] + self._moves[:, 1] @ x
+        return joints, bends[: len(self.between)], bends[len(self.between) :]
+
+    @property
+    def _count(self) -> int:
+        """How many numbers move: x and y of joints and bends between, and how far bends outward are."""
+        return 2 * (len(self.joints) + len(self.between)) + len(self.outward)
 
     @cached_property
-    def drawn(self) -> list[FloatArray]:
-        """Points (n, 2) along each stroke that moves, as it is."""
-        shares = parabola_shares(_STEPS)
+    def _controls(self) -> FloatArray:
+        """Start, bend and end (s, 3, 2) of each stroke that moves."""
         between = [(self.joints[each.start], each.bend, self.joints[each.end]) for each in self.between]
-        outward = [(self.joints[out.joint], self._bend(out), out.to) for out in self.outward]
-        return [shares @ np.stack(points) for points in (*between, *outward)]
+        outward = []
+        for out in self.outward:
+            start = self.joints[out.joint]
+            outward.append((start, out.to - np.linalg.norm(out.to - start) / 2 * out.direction, out.to))
+        return np.array([*between, *outward]).reshape(-1, 3, 2)
 
-    def _bounds(self) -> tuple[FloatArray, FloatArray]:
-        ways = [
-            float(np.linalg.norm(out.to - self.joints[out.joint])) / self.width_px for out in self.outward
-        ]
-        free = np.full(2 * (len(self.joints) + len(self.between)), _FARTHEST)
-        shares = [np.array([(share - 0.5) * way for way in ways]) for share in _BEND]
-        return np.concatenate([-free, shares[0]]), np.concatenate([free, shares[1]])
-
-    def _read(self, x: FloatArray) -> tuple[FloatArray, list[FloatArray], list[FloatArray]]:
-        moved = x[: 2 * (len(self.joints) + len(self.between))].reshape(-1, 2) * self.width_px
-        joints = self.joints + moved[: len(self.joints)]
-        between = [
-            each.bend + step for each, step in zip(self.between, moved[len(self.joints) :], strict=True)
-        ]
-        outward = [
-            self._bend(out) - length * self.width_px * out.direction
-            for out, length in zip(self.outward, x[len(x) - len(self.outward) :], strict=True)
-        ]
-        return joints, between, outward
-
-    def _bend(self, out: Outward) -> FloatArray:
-        return out.to - float(np.linalg.norm(out.to - self.joints[out.joint])) / 2 * out.direction
+    @property
+    def _halves(self) -> list[float]:
+        """Half the width of each stroke that moves."""
+        return [each.half_px for each in self.between] + [each.half_px for each in self.outward]
 
     @cached_property
-    def near(self) -> list[Still]:
-        """What stays as it is, as far as it may have edges in common with what moves."""
-        from scipy.spatial import cKDTree
-
-        tree = cKDTree(np.concatenate(self.drawn))
-        parts = []
-        for still in self.still:
-            near = np.isfinite(tree.query(still.points, distance_upper_bound=_NEAR * self.width_px)[0])
-            changes = np.flatnonzero(np.diff(near)) + 1
-            runs = zip(np.split(still.points, changes), np.split(still.halves, changes), strict=True)
-            parts += [Still(*run) for run in list(runs)[0 if near[0] else 1 :: 2] if len(run[0]) > 1]
-        return parts
-
-    def _model(self) -> _Model:
-        count = 2 * (len(self.joints) + len(self.between)) + len(self.outward)
-        lines: list[tuple[FloatArray, FloatArray]] = []
-
-        def free(k: int) -> FloatArray:
-            moves = np.zeros((2, count))
-            moves[0, 2 * k] = moves[1, 2 * k + 1] = self.width_px
-            return moves
-
-        still = np.zeros((2, count))
+    def _moves(self) -> FloatArray:
+        """How those change (s, 3, 2, x) with what moves, which is in stroke widths."""
+        moves = np.zeros((len(self._controls), 3, 2, self._count))
         for k, each in enumerate(self.between):
-            points = np.stack([self.joints[each.start], each.bend, self.joints[each.end]])
-            moves = np.stack([free(each.start), free(len(self.joints) + k), free(each.end)])
-            lines.append((points, moves))
-        for k, out in enumerate(self.outward):
-            bend = still.copy()
-            bend[:, count - len(self.outward) + k] = -self.width_px * out.direction
-            points = np.stack([self.joints[out.joint], self._bend(out), out.to])
-            lines.append((points, np.stack([free(out.joint), bend, still])))
+            for part, moving in enumerate((each.start, len(self.joints) + k, each.end)):
+                moves[k, part, [0, 1], [2 * moving, 2 * moving + 1]] = self.width_px
+        for k, out in enumerate(self.outward, len(self.between)):
+            moves[k, 0, [0, 1], [2 * out.joint, 2 * out.joint + 1]] = self.width_px
+            moves[k, 1, :, self._count - len(self._controls) + k] = -self.width_px * out.direction
+        return moves
+
+    def _sides(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The sides (n, 2, 2) of all strokes, how these change (n, 2, 2, x), and half their widths (n,)."""
         shares = parabola_shares(_STEPS)
-        drawn = [(shares @ points, np.tensordot(shares, moves, 1)) for points, moves in lines]
-        halves = [np.full(_STEPS, each.half) for each in (*self.between, *self.outward)]
-        for part in self.near:
-            drawn.append((part.points, np.zeros((len(part.points), 2, count))))
-            halves.append(part.halves[1:])
-        return _Model(
-            np.concatenate([points[:-1] for points, _ in drawn]),
-            np.concatenate([points[1:] for points, _ in drawn]),
-            np.concatenate([moves[:-1] for _, moves in drawn]),
-            np.concatenate([moves[1:] for _, moves in drawn]),
+        lines = [*(shares @ self._controls), *(part.points for part in self.near)]
+        moves = [*np.einsum("tp,spkx->stkx", shares, self._moves)]
+        moves += [np.zeros((len(part.points), 2, self._count)) for part in self.near]
+        halves = [np.full(_STEPS, half) for half in self._halves]
+        halves += [part.halves[1:] for part in self.near]
+        return (
+            np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines]),
+            np.concatenate([np.stack([move[:-1], move[1:]], axis=1) for move in moves]),
             np.concatenate(halves),
-            np.flatnonzero(self.corners),
-            self.joints,
-            self.width_px,
         )
 
-
-@dataclass(frozen=True, eq=False)
-class _Model:
-    """Sides from `starts` to `ends` (s, 2), each with its change (s, 2, x) by what moves; `corners` of joints."""
-
-    starts: FloatArray
-    ends: FloatArray
-    start_moves: FloatArray
-    end_moves: FloatArray
-    halves: FloatArray
-    corners: IntArray
-    joints: FloatArray
-    width_px: float
-
-    def off(self, x: FloatArray, edge: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How far outside (n,) of the strokes points of the ink's edge lie, in widths, and its slopes (n, x)."""
-        starts = self.starts + self.start_moves @ x
-        ends = self.ends + self.end_moves @ x
-        side, share, gap = nearest_of_all(starts, ends - starts, edge)
+    def _off(
+        self, x: FloatArray, sides: tuple[FloatArray, FloatArray, FloatArray], edge: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """How far outside (n,) of the strokes edges lie, in widths, and how that changes (n, x)."""
+        places, moves, halves = sides
+        placed = places + moves @ x
+        side, share, gap = nearest_of_all(placed[:, 0], placed[:, 1] - placed[:, 0], edge)
         distance = np.linalg.norm(gap, axis=1)
-        off = (distance - self.halves[side]) / self.width_px
+        off = (distance - halves[side]) / self.width_px
         weight = np.ones(len(off))
         for corner in self.corners:
             at = self.joints[corner] + self.width_px * x[2 * corner : 2 * corner + 2]
-            weight[(np.abs(np.linalg.norm(edge - at, axis=1) - distance) < 1e-6) & (off > 0)] = _MITRE
+            nearest = np.abs(np.linalg.norm(edge - at, axis=1) - distance) < 1e-6
+            weight[nearest & (off > 0)] = _MITRE
         away = gap / np.maximum(distance, 1e-9)[:, None]
-        share = share[:, None, None]
-        moves = (1 - share) * self.start_moves[side] + share * self.end_moves[side]
-        slopes = -np.einsum("nk,nkx->nx", away, moves) / self.width_px
-        return weight * off, weight[:, None] * slopes
+        shares = np.column_stack([1 - share, share])
+        change = -np.einsum("nk,ne,nekx->nx", away, shares, moves[side], optimize=True) / self.width_px
+        return weight * off, weight[:, None] * change
 
 
 def parabola_shares(steps: int) -> FloatArray:
