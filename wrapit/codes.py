@@ -51,6 +51,10 @@ DRAWING: Final = {
     "light-on-dark": Saying("light lines on dark ground were traced", NOTHING),
     "markers-left-out": Saying("arrowheads are left out", "draw them as lines of their own"),
     "masked": Saying("a mask of an SVG file isn't read: all of the line is taken", "release the mask"),
+    "misread": Saying(
+        "ink and lines differ here by more than a pen's edge is uneven",
+        "draw it larger or with a thinner pen, so that lines keep apart, or correct that place",
+    ),
     "no-bead": Saying(
         "a dot or ring of the drawing becomes no bead", "draw it beside a line, or as a ring on one"
     ),

@@ -83,7 +83,7 @@ class Still:
 
 @dataclass(frozen=True, eq=False)
 class Web:
-    """Joints (n, 2), some of them `corners`, with their strokes, and strokes near by that stay as they are."""
+    """Joints (n, 2), some of them `corners`, with their strokes, and strokes near by that stay."""
 
     joints: FloatArray
     corners: list[int]
