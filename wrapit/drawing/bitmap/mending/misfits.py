@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.mending.contours import half_widths
+from wrapit.drawing.bitmap.mending.ink_edges import half_widths
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray, IntArray
 

@@ -10,8 +10,8 @@ from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.curves import fitted
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.drawing.bitmap.mending.contours import FINE, contour, half_widths, off, rms
 from wrapit.drawing.bitmap.mending.crowd import crowd_at
+from wrapit.drawing.bitmap.mending.ink_edges import FINE, contour, half_widths, off, rms
 from wrapit.drawing.bitmap.mending.web import Still
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray
