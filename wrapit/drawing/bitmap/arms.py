@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -155,7 +156,7 @@ def _found(line: Line, strand: int, end: int, width_px: float, hard: bool) -> Ar
 
 
 def arms_at(
-    graph: StrandGraph, lines: dict[int, Line], node: int, width_px: float, *, hard: bool
+    graph: StrandGraph, lines: Mapping[int, Line], node: int, width_px: float, *, hard: bool
 ) -> list[Arm]:
     """The arms of a node; those measured on `hard` edges look farther."""
     return [arm(lines[strand], strand, end, width_px, hard=hard) for strand, end in graph.ends_at(node)]

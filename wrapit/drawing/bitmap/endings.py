@@ -17,7 +17,7 @@ from wrapit.geometry.polynomials import angle, horner, nearest_along
 
 # When does a single arm leave along the stroke that goes through? Branches of curls and leaves are drawn
 # tangentially, and the arm alone doesn't tell 10 degrees from none; 14 or 26 make no difference.
-_SNAP_RAD = math.radians(20)
+SNAP_RAD = math.radians(20)
 # How much do a pair's curve, a single arm and the skeleton's own place say about where a junction is? Single
 # arms are extrapolated, a pair is interpolated; the place only keeps the sum regular, and hardly that where
 # two curves fix the point already, even at an acute angle.
@@ -127,7 +127,7 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
     on, direction = _extrapolated(single, point)
     behind = passed(single, point, direction)
     for tangent in tangents:
-        if angle(tangent, direction) < _SNAP_RAD:
+        if angle(tangent, direction) < SNAP_RAD:
             return Ending(tangent, np.zeros((0, 2)), single.cut + behind)
     missed = float(np.linalg.norm(on - point))
     if missed < _MISSED * single.width_px:
@@ -139,7 +139,7 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
 def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> Ending:
     """Along the arc between the joint and the arm; tangentially to the other stroke where it is nearly so."""
     tangent = min(tangents, key=lambda along: angle(along, merge.direction))
-    if angle(tangent, merge.direction) > _SNAP_RAD:
+    if angle(tangent, merge.direction) > SNAP_RAD:
         tangent = merge.direction
     return Ending(tangent, merge.lead, single.cut)
 

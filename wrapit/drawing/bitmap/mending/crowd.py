@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wrapit.drawing.bitmap.arms import Arm, arm
+from wrapit.drawing.bitmap.arms import Arm, arm, arms_at
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.endings import Ending
+from wrapit.drawing.bitmap.endings import SNAP_RAD, Ending
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web, parabola_shares
@@ -54,11 +54,15 @@ class _Leaving:
 
 @dataclass(frozen=True, eq=False)
 class Crowd:
-    """The `nodes` of a crowd, the strands `inner` between them, those that leave, and all as a web."""
+    """The `nodes` of a crowd, the strands `inner` between them, those that leave, and all as a web.
+
+    `pairs` are the strand ends at each node that continue each other.
+    """
 
     nodes: list[int]
     inner: list[int]
     leaving: list[_Leaving]
+    pairs: dict[int, list[tuple[StrandEnd, StrandEnd]]]
     web: Web
 
     @property
@@ -94,19 +98,9 @@ class Crowd:
             at = places[each.node]
             lead = parabola_shares(_LEAD_STEPS)[1:-1] @ np.stack([at, bend, each.to])
             endings[each.end] = Ending(unit(bend - at), lead, each.arm.cut + each.first)
-        for one, other in self._pairs(graph):
-            endings |= _straightened(endings, one, other)
+        for node, pairs in self.pairs.items():
+            endings |= _aligned(endings, graph.ends_at(node), pairs)
         return Moved(places, lines, endings)
-
-    def _pairs(self, graph: StrandGraph) -> list[tuple[StrandEnd, StrandEnd]]:
-        """Which strand ends continue each other, at nodes that all strands leave."""
-        found = []
-        for node in self.nodes:
-            arms = [each.arm for each in self.leaving if each.node == node]
-            if len(arms) == graph.degree(node) > 2:
-                ends = [(each.strand, each.end) for each in arms]
-                found += [(ends[i], ends[j]) for i, j in pairs_at(graph, node, arms)]
-        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,13 +112,21 @@ class Moved:
     endings: Ends
 
 
-def _straightened(endings: Ends, one: StrandEnd, other: StrandEnd) -> Ends:
-    """Two endings with one direction, if they nearly have."""
-    first, second = endings[one].tangent, endings[other].tangent
-    if angle(-first, second) > _ONE_RAD:
-        return {}
-    along = unit(second - first)
-    return {one: replace(endings[one], tangent=-along), other: replace(endings[other], tangent=along)}
+def _aligned(endings: Ends, ends: list[StrandEnd], pairs: list[tuple[StrandEnd, StrandEnd]]) -> Ends:
+    """The endings at a node, with one direction for pairs, and for single ones that nearly leave along."""
+    tangents = {}
+    for one, other in pairs:
+        first, second = endings[one].tangent, endings[other].tangent
+        if angle(-first, second) < _ONE_RAD:
+            tangents[other] = unit(second - first)
+            tangents[one] = -tangents[other]
+    through = list(tangents.values())
+    for end in ends:
+        if end not in tangents:
+            near = [along for along in through if angle(along, endings[end].tangent) < SNAP_RAD]
+            if near:
+                tangents[end] = near[0]
+    return {end: replace(endings[end], tangent=along) for end, along in tangents.items()}
 
 
 def crowd_at(
@@ -168,7 +170,16 @@ def crowd_at(
     low, high = moving.min(axis=0) - _NEAR * width_px, moving.max(axis=0) + _NEAR * width_px
     still += [stroke for strand, stroke in drawn.items() if strand not in own and stroke.reaches(low, high)]
     still = [stroke for stroke in still if len(stroke.points) > 1]
-    return Crowd(nodes, inner, leaving, Web(joints, corners, between, outward, still, width_px))
+    pairs = {n: _pairs(graph, lines, n, width_px) for n in nodes}
+    return Crowd(nodes, inner, leaving, pairs, Web(joints, corners, between, outward, still, width_px))
+
+
+def _pairs(
+    graph: StrandGraph, lines: Mapping[int, Line], node: int, width_px: float
+) -> list[tuple[StrandEnd, StrandEnd]]:
+    arms = arms_at(graph, lines, node, width_px, hard=False)
+    ends = [(each.strand, each.end) for each in arms]
+    return [(ends[i], ends[j]) for i, j in pairs_at(graph, node, arms)]
 
 
 def _nodes(
