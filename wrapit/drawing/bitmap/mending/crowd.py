@@ -9,7 +9,7 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm, arm, arms_at
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.endings import SNAP_RAD, Ending
+from wrapit.drawing.bitmap.endings import SNAP_RAD, Ending, passed
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web, parabola_shares
@@ -31,6 +31,8 @@ _REACH = 1.1
 _OTHERS = 0.3
 # How many points of edges are enough?
 _ENOUGH = 200
+# When are two joints one?
+_ONE = 0.35
 # When do two strokes of a pair go on as one?
 _ONE_RAD = np.radians(25)
 # In how many steps is a stroke between joints renewed, and one that leaves?
@@ -82,10 +84,13 @@ class Crowd:
             near = near[own[near] < others + _OTHERS * width_px]
         return edge[near[:: max(1, len(near) // _ENOUGH)]]
 
-    def moved(self, graph: StrandGraph, edge: FloatArray) -> Moved:
-        """The crowd where edges (n, 2) fit best."""
+    def moved(self, graph: StrandGraph, edge: FloatArray) -> Moved | None:
+        """The crowd where edges (n, 2) fit best; nothing where two of its joints would be one then."""
         joints, between, outward = self.web.settled(edge)
         places = dict(zip(self.nodes, joints, strict=True))
+        apart = [np.linalg.norm(joints[each.end] - joints[each.start]) for each in self.web.between]
+        if min(apart, default=np.inf) < _ONE * self.web.width_px:
+            return None
         lines, endings = {}, {}
         for strand, bend, was in zip(self.inner, between, self.web.between, strict=True):
             s = graph.strands[strand]
@@ -203,6 +208,7 @@ def _leaving(
     """Where a strand stands alone that leaves a node; nothing where its other end is nearer than that."""
     own = arm(line, *end, width_px)
     far = np.linalg.norm(own.points - graph.nodes[node], axis=1) > _ALONE * width_px
+    far[: passed(own, graph.nodes[node], own.at(0.0)[1])] = False
     first = int(np.argmax(far)) if far.any() else len(own.points) - 1
     most = len(line.points) // 2 if both else len(line.points) - 2 - endings[end[0], 1 - end[1]].cut
     first = min(first, most - own.cut)

@@ -55,9 +55,9 @@ def mended(
             continue
         done |= set(crowd.nodes)
         seen = crowd.seen(edge)
-        if len(seen) < _FEWEST:
+        moved = crowd.moved(graph, seen) if len(seen) >= _FEWEST else None
+        if moved is None:
             continue
-        moved = crowd.moved(graph, seen)
         was = {n: graph.nodes[n] for n in crowd.nodes}
         graph.nodes.update(moved.places)
         new = fitted(graph, lines | moved.lines, endings | moved.endings, crowd.strands, width_px, tolerance)
