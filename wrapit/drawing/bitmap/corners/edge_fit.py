@@ -115,6 +115,10 @@ def _nearest(
 def nearest_of_all(
     starts: FloatArray, course: FloatArray, points: FloatArray
 ) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """The side nearest to each of points (n, 2), how far along it, and the way from there (n, 2).
+
+    Sides (m,) go from `starts` (m or more, 2) along their `course` (m, 2).
+    """
     # In x and y apart (sides, n): sums over an axis of two and rows of few sides take several times as long.
     course_x, course_y = course[:, :1], course[:, 1:]
     x, y = points[:, 0] - starts[: len(course), :1], points[:, 1] - starts[: len(course), 1:]

@@ -19,7 +19,8 @@ from wrapit.geometry.polyline import lengths
 from wrapit.geometry.polynomials import angle
 
 # In stroke widths.
-# Which strokes make one crowd of their joints, and how many joints has it at most?
+# Which strokes make one crowd of their joints, and how many joints has it at most? A parabola can't follow
+# longer ones; more joints than these were never needed.
 _SHORT = 2.5
 _MOST = 5
 # How far around a crowd are strokes looked for that may have edges in common with its own?
@@ -29,9 +30,9 @@ _ALONE = 1.5
 # What edges are those of a crowd? Those no farther than this from its strokes, and not much nearer to others.
 _REACH = 1.1
 _OTHERS = 0.3
-# How many points of edges are enough?
+# How many points of edges are enough? As many as a joint has on pictures of 10 px.
 _ENOUGH = 200
-# When are two joints one?
+# When are two joints one? Their wires would touch over all of the stroke between.
 _ONE = 0.35
 # When do two strokes of a pair go on as one?
 _ONE_RAD = np.radians(25)
