@@ -90,3 +90,9 @@ def angle(a: FloatArray, b: FloatArray) -> float:
 def angle_of(a: Sequence[float], b: Sequence[float]) -> float:
     """The same for plain numbers."""
     return abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
+
+
+def parabola_shares(steps: int) -> FloatArray:
+    """How much of the start, bend and end of a quadratic Bézier is in each of its points (steps + 1, 3)."""
+    t = np.linspace(0, 1, steps + 1)
+    return np.column_stack([(1 - t) ** 2, 2 * (1 - t) * t, t**2])

@@ -13,7 +13,7 @@ from wrapit.drawing.bitmap.ends.merges import Merge, find_merge
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.pairing import Through, through
 from wrapit.geometry import FloatArray, unit
-from wrapit.geometry.polynomials import angle, horner, nearest_along
+from wrapit.geometry.polynomials import angle, horner, nearest_along, parabola_shares
 
 # When does a single arm leave along the stroke that goes through? Branches of curls and leaves are drawn
 # tangentially, and the arm alone doesn't tell 10 degrees from none; 14 or 26 make no difference.
@@ -33,6 +33,7 @@ _ASTRAY = 4.0
 # many times what it misses by, as an S in the little ink between would be none that a pen drew.
 _MISSED = 0.1
 _GENTLY = 5.0
+# In what steps is it drawn? A point every quarter of the width tells a curve as well as one every eighth.
 _FINE = 0.25
 
 
@@ -133,7 +134,9 @@ def _single_ending(single: Arm, point: FloatArray, tangents: list[FloatArray]) -
     if missed < _MISSED * single.width_px:
         return Ending(direction, np.zeros((0, 2)), single.cut + behind)
     gently = int(np.searchsorted(single.along, min(_GENTLY * missed, single.length / 2, 3 * single.width_px)))
-    return bent_ending(single, point, max(behind, gently))
+    first = max(behind, gently)
+    to, (_, direction) = single.points[first], single.at(float(single.along[first]))
+    return bent_ending(single, first, point, to - float(np.linalg.norm(to - point)) / 2 * direction)
 
 
 def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> Ending:
@@ -144,14 +147,12 @@ def _merged_ending(single: Arm, merge: Merge, tangents: list[FloatArray]) -> End
     return Ending(tangent, merge.lead, single.cut)
 
 
-def bent_ending(arm: Arm, point: FloatArray, behind: int) -> Ending:
-    """A parabola from the junction to one of an arm's points, where it arrives as the arm goes on."""
-    first, (_, direction) = arm.points[behind], arm.at(float(arm.along[behind]))
-    far = float(np.linalg.norm(first - point))
-    bend = first - far / 2 * direction
-    t = np.linspace(0, 1, max(4, int(far / (_FINE * arm.width_px)) + 1))[1:-1, None]
-    lead = (1 - t) ** 2 * point + 2 * (1 - t) * t * bend + t**2 * first
-    return Ending(unit(bend - point), lead, arm.cut + behind)
+def bent_ending(arm: Arm, first: int, point: FloatArray, bend: FloatArray) -> Ending:
+    """A parabola from the junction, towards a place (2,) where it bends, to one of an arm's points."""
+    to = arm.points[first]
+    steps = max(3, int(np.linalg.norm(to - point) / (_FINE * arm.width_px)))
+    lead = parabola_shares(steps)[1:-1] @ np.stack([point, bend, to])
+    return Ending(unit(bend - point), lead, arm.cut + first)
 
 
 def passed(arm: Arm, point: FloatArray, tangent: FloatArray) -> int:

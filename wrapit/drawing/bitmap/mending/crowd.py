@@ -9,14 +9,14 @@ import numpy as np
 
 from wrapit.drawing.bitmap.arms import Arm, arm, arms_at
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.endings import SNAP_RAD, Ending, passed
+from wrapit.drawing.bitmap.endings import SNAP_RAD, Ending, bent_ending, passed
 from wrapit.drawing.bitmap.ends.at_nodes import pairs_at
 from wrapit.drawing.bitmap.ends.rings import Ends
-from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web, parabola_shares
+from wrapit.drawing.bitmap.mending.web import Between, Outward, Still, Web
 from wrapit.drawing.bitmap.strand_graph import StrandEnd, StrandGraph
 from wrapit.geometry import FloatArray, unit
 from wrapit.geometry.polyline import lengths
-from wrapit.geometry.polynomials import angle
+from wrapit.geometry.polynomials import angle, parabola_shares
 
 # In stroke widths.
 # Which strokes make one crowd of their joints, and how many joints has it at most? A parabola can't follow
@@ -36,8 +36,8 @@ _ENOUGH = 200
 _ONE = 0.35
 # When do two strokes of a pair go on as one?
 _ONE_RAD = np.radians(25)
-# In how many steps is a stroke between joints renewed, and one that leaves?
-_STEPS, _LEAD_STEPS = 16, 8
+# In how many steps is a stroke between joints renewed?
+_STEPS = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,10 +74,12 @@ class Crowd:
         return sorted({*self.inner, *(each.end[0] for each in self.leaving)})
 
     def seen(self, edge: FloatArray) -> FloatArray:
-        """Those points (n, 2) of the ink's edges that tell of this crowd."""
+        """Those points (n, 2) of the ink's edges, from top to bottom, that tell of this crowd."""
         from scipy.spatial import cKDTree
 
         width_px = self.web.width_px
+        rows = self.web.drawn[:, 1].min() - _REACH * width_px, self.web.drawn[:, 1].max() + _REACH * width_px
+        edge = edge[slice(*np.searchsorted(edge[:, 1], rows))]
         own = cKDTree(self.web.drawn).query(edge, distance_upper_bound=_REACH * width_px)[0]
         near = np.flatnonzero(np.isfinite(own))
         if self.web.still and len(near):
@@ -101,9 +103,7 @@ class Crowd:
             for end, node in ((0, s.start), (1, s.end)):
                 endings[strand, end] = Ending(unit(bend - places[node]), np.zeros((0, 2)), 1)
         for each, bend in zip(self.leaving, outward, strict=True):
-            at = places[each.node]
-            lead = parabola_shares(_LEAD_STEPS)[1:-1] @ np.stack([at, bend, each.to])
-            endings[each.end] = Ending(unit(bend - at), lead, each.arm.cut + each.first)
+            endings[each.end] = bent_ending(each.arm, each.first, places[each.node], bend)
         for node, pairs in self.pairs.items():
             endings |= _aligned(endings, graph.ends_at(node), pairs)
         return Moved(places, lines, endings)

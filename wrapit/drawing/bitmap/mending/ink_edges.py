@@ -19,16 +19,18 @@ _EVEN = 0.12
 
 
 def contour(ink: Ink) -> FloatArray:
-    """Points (n, 2) of the edge of all ink: where grey crosses the half between neighbouring pixels."""
-    above = ink.framed.astype(np.float32) - np.float32(ink.half)
+    """Points (n, 2) of the ink's edge, from top to bottom: where grey crosses the half between pixels."""
+    grey = ink.framed
+    dark = grey <= ink.half
     found = []
     for x, y in ((1, 0), (0, 1)):
-        first = above[: above.shape[0] - y, : above.shape[1] - x]
-        second = above[y:, x:]
-        row, column = np.nonzero((first <= 0) != (second <= 0))
-        share = first[row, column] / (first[row, column] - second[row, column])
+        row, column = np.nonzero(dark[: len(dark) - y, : dark.shape[1] - x] != dark[y:, x:])
+        first, second = (level.astype(np.float64) for level in (grey[row, column], grey[row + y, column + x]))
+        share = (ink.half - first) / (second - first)
+        # The frame is a pixel broad.
         found.append(np.column_stack([column - 1 + x * share, row - 1 + y * share]))
-    return np.concatenate(found)
+    edge = np.concatenate(found)
+    return edge[np.argsort(edge[:, 1], kind="stable")]
 
 
 def off(points: FloatArray, drawn: FloatArray, halves: FloatArray) -> FloatArray:

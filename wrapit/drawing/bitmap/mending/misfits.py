@@ -61,32 +61,31 @@ def misfits(
     slack = _SLACK * width_px + _SLACK_PX
     covered = _stamped(mask.shape, points, half + slack)
     unexplained = _where(mask & ~covered)
+    unexplained = unexplained[_near(unexplained, points, _NEAR * width_px)]
     unexplained = unexplained[~_mitred(unexplained, ends, width_px / 2 + slack)]
     # A flat cap ends where its line does.
-    inner = _off_free_ends(points, ends, width_px / 2)
+    inner = ~_near(points, _free(ends), width_px / 2)
     bare = _where(_stamped(mask.shape, points[inner], half[inner] - slack) & ~mask)
+    covered &= mask
     found = [
         Misfit(group.mean(axis=0), len(group) / width_px**2, is_bare)
         for places, is_bare in ((unexplained, False), (bare, True))
         for group in _groups(places, _MISREAD * width_px**2)
-        if is_bare or _touches(group, covered & mask)
+        if is_bare or _touches(group, covered)
     ]
     return sorted(found, key=lambda misfit: (-misfit.area, *misfit.at))
 
 
 def tell_misread(graph: StrandGraph, found: list[Misfit], kept: list[BezierChain], width_px: float) -> None:
     """Names the places where the lines that are kept were misread, the worst first."""
-    drawn = np.concatenate([curve.sampled(width_px) for curve in kept])
+    if not found:
+        return
+    at, reach = np.array([misfit.at for misfit in found]), _NEAR * width_px
+    told = _near(at, np.concatenate([curve.sampled(width_px) for curve in kept]), reach)
     closed = [notice.at_px for notice in graph.notices if notice.code == "gap-closed"]
-
-    def is_near(misfit: Misfit, places: FloatArray) -> bool:
-        return bool((np.linalg.norm(places - misfit.at, axis=1) < _NEAR * width_px).any())
-
-    found = [
-        misfit
-        for misfit in found
-        if is_near(misfit, drawn) and not (misfit.bare and closed and is_near(misfit, np.array(closed)))
-    ]
+    if closed:
+        told &= ~(_near(at, np.array(closed), reach) & [misfit.bare for misfit in found])
+    found = [misfit for misfit, tells in zip(found, told, strict=True) if tells]
     remedy = "compare it with the preview; draw it larger, or with a thinner pen, so that lines keep apart"
     for misfit in found[:_NAMED]:
         what = "a line was read without ink" if misfit.bare else "ink is left over that is no line's"
@@ -100,6 +99,13 @@ def tell_misread(graph: StrandGraph, found: list[Misfit], kept: list[BezierChain
 def _where(mask: NDArray[np.bool_]) -> IntArray:
     """The places (n, 2), x and y, of a mask (h, w)."""
     return np.column_stack(np.divmod(np.flatnonzero(mask), mask.shape[1])[::-1])
+
+
+def _near(places: FloatArray | IntArray, points: FloatArray, reach: float) -> NDArray[np.bool_]:
+    """Which places (n, 2) are nearer than that to one of points (m, 2)."""
+    from scipy.spatial import cKDTree
+
+    return np.isfinite(cKDTree(points).query(places, distance_upper_bound=reach)[0])
 
 
 def _stamped(shape: tuple[int, ...], points: FloatArray, radii: FloatArray) -> NDArray[np.bool_]:
@@ -129,16 +135,10 @@ def _ends(curves: Iterable[BezierChain]) -> tuple[FloatArray, FloatArray]:
     return np.array([place for place, _ in ends]), np.array([inwards for _, inwards in ends])
 
 
-def _off_free_ends(
-    points: FloatArray, ends: tuple[FloatArray, FloatArray], reach: float
-) -> NDArray[np.bool_]:
-    """Which points (n, 2) are farther than that from where a curve ends alone."""
-    from scipy.spatial import cKDTree
-
+def _free(ends: tuple[FloatArray, FloatArray]) -> FloatArray:
+    """Those ends (n, 2) at which no other curve ends."""
     places, counts = np.unique(ends[0], axis=0, return_counts=True)
-    if not (counts == 1).any():
-        return np.ones(len(points), dtype=np.bool_)
-    return np.asarray(cKDTree(places[counts == 1]).query(points, distance_upper_bound=reach)[0] > reach)
+    return np.asarray(places[counts == 1])
 
 
 def _mitred(places: IntArray, ends: tuple[FloatArray, FloatArray], half: float) -> NDArray[np.bool_]:

@@ -15,6 +15,7 @@ import numpy as np
 from wrapit.drawing.bitmap.corners.edge_fit import nearest_of_all
 from wrapit.geometry import FloatArray
 from wrapit.geometry.polyline import total_length
+from wrapit.geometry.polynomials import parabola_shares
 
 # In how many steps is a parabola drawn?
 _STEPS = 8
@@ -201,9 +202,3 @@ class Web:
         shares = np.column_stack([1 - share, share])
         change = -np.einsum("nk,ne,nekx->nx", away, shares, moves[side], optimize=True) / self.width_px
         return weight * off, weight[:, None] * change
-
-
-def parabola_shares(steps: int) -> FloatArray:
-    """What of its start, bend and end is in points (steps + 1, 3) along a parabola."""
-    t = np.linspace(0, 1, steps + 1)
-    return np.column_stack([(1 - t) ** 2, 2 * (1 - t) * t, t**2])
