@@ -56,7 +56,7 @@ def test_a_mitre_is_no_misread_ink(traced, angle, width, turn):
 
 
 @few
-@given(st.floats(1.0, 1.6), PENS, TURNS)
+@given(st.floats(1.0, 1.3), PENS, TURNS)
 def test_ink_that_is_no_line_s_is_told_with_its_place(traced, radius, width, turn):
     """A blot on a stroke, as large as a bead: no line has that ink."""
     angles = np.linspace(0, 2 * math.pi, 40)
