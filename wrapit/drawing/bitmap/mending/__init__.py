@@ -1,1 +1,1 @@
-"""How strokes end: caps, small rings at a stem, and joints at a small angle."""
+"""Joints whose strokes, drawn again, don't have the ink's edges: moved, or told as misread."""

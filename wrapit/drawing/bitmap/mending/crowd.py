@@ -20,7 +20,7 @@ from wrapit.geometry.polynomials import angle, parabola_shares
 
 # In stroke widths.
 # Which strokes make one crowd of their joints, and how many joints has it at most? A parabola can't follow
-# longer ones; more joints than these were never needed.
+# longer ones, and each joint more makes a step dearer. Not varied.
 _SHORT = 2.5
 _MOST = 5
 # How far around a crowd are strokes looked for that may have edges in common with its own?
@@ -30,7 +30,7 @@ _ALONE = 1.5
 # What edges are those of a crowd? Those no farther than this from its strokes, and not much nearer to others.
 _REACH = 1.1
 _OTHERS = 0.3
-# How many points of edges are enough? As many as a joint has on pictures of 10 px.
+# How many points of edges are enough? More only cost time. Not varied.
 _ENOUGH = 200
 # When are two joints one? Their wires would touch over all of the stroke between.
 _ONE = 0.35

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
 from wrapit.drawing.bitmap.ink import Ink
-from wrapit.geometry import FloatArray
+from wrapit.geometry import FloatArray, IntArray
 from wrapit.geometry.arrays import median
 
 # In stroke widths.
@@ -31,6 +32,13 @@ def contour(ink: Ink) -> FloatArray:
         found.append(np.column_stack([column - 1 + x * share, row - 1 + y * share]))
     edge = np.concatenate(found)
     return edge[np.argsort(edge[:, 1], kind="stable")]
+
+
+def near(places: FloatArray | IntArray, points: FloatArray, reach: float) -> NDArray[np.bool_]:
+    """Which places (n, 2) are nearer than that to one of points (m, 2)."""
+    from scipy.spatial import cKDTree
+
+    return np.isfinite(cKDTree(points).query(places, distance_upper_bound=reach)[0])
 
 
 def off(points: FloatArray, drawn: FloatArray, halves: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wrapit.drawing.bitmap.centre_lines import Line
-from wrapit.drawing.bitmap.mending.ink_edges import half_widths
+from wrapit.drawing.bitmap.mending.ink_edges import half_widths, near
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray, IntArray
 
@@ -61,10 +61,10 @@ def misfits(
     slack = _SLACK * width_px + _SLACK_PX
     covered = _stamped(mask.shape, points, half + slack)
     unexplained = _where(mask & ~covered)
-    unexplained = unexplained[_near(unexplained, points, _NEAR * width_px)]
+    unexplained = unexplained[near(unexplained, points, _NEAR * width_px)]
     unexplained = unexplained[~_mitred(unexplained, ends, width_px / 2 + slack)]
     # A flat cap ends where its line does.
-    inner = ~_near(points, _free(ends), width_px / 2)
+    inner = ~near(points, _free(ends), width_px / 2)
     bare = _where(_stamped(mask.shape, points[inner], half[inner] - slack) & ~mask)
     covered &= mask
     found = [
@@ -81,10 +81,10 @@ def tell_misread(graph: StrandGraph, found: list[Misfit], kept: list[BezierChain
     if not found:
         return
     at, reach = np.array([misfit.at for misfit in found]), _NEAR * width_px
-    told = _near(at, np.concatenate([curve.sampled(width_px) for curve in kept]), reach)
+    told = near(at, np.concatenate([curve.sampled(width_px) for curve in kept]), reach)
     closed = [notice.at_px for notice in graph.notices if notice.code == "gap-closed"]
     if closed:
-        told &= ~(_near(at, np.array(closed), reach) & [misfit.bare for misfit in found])
+        told &= ~(near(at, np.array(closed), reach) & [misfit.bare for misfit in found])
     found = [misfit for misfit, tells in zip(found, told, strict=True) if tells]
     remedy = "compare it with the preview; draw it larger, or with a thinner pen, so that lines keep apart"
     for misfit in found[:_NAMED]:
@@ -99,13 +99,6 @@ def tell_misread(graph: StrandGraph, found: list[Misfit], kept: list[BezierChain
 def _where(mask: NDArray[np.bool_]) -> IntArray:
     """The places (n, 2), x and y, of a mask (h, w)."""
     return np.column_stack(np.divmod(np.flatnonzero(mask), mask.shape[1])[::-1])
-
-
-def _near(places: FloatArray | IntArray, points: FloatArray, reach: float) -> NDArray[np.bool_]:
-    """Which places (n, 2) are nearer than that to one of points (m, 2)."""
-    from scipy.spatial import cKDTree
-
-    return np.isfinite(cKDTree(points).query(places, distance_upper_bound=reach)[0])
 
 
 def _stamped(shape: tuple[int, ...], points: FloatArray, radii: FloatArray) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from wrapit.drawing.bitmap.curves import fitted
 from wrapit.drawing.bitmap.ends.rings import Ends
 from wrapit.drawing.bitmap.ink import Ink
 from wrapit.drawing.bitmap.mending.crowd import crowd_at
-from wrapit.drawing.bitmap.mending.ink_edges import FINE, contour, half_widths, off, rms
+from wrapit.drawing.bitmap.mending.ink_edges import FINE, contour, half_widths, near, off, rms
 from wrapit.drawing.bitmap.mending.web import Still
 from wrapit.drawing.bitmap.strand_graph import StrandGraph
 from wrapit.geometry import BezierChain, FloatArray
@@ -103,13 +103,9 @@ def _unevenness(lines: Mapping[int, Line], width_px: float) -> float:
 
 def _edge(graph: StrandGraph, ink: Ink, width_px: float) -> FloatArray:
     """The ink's edge (n, 2), but for the ends of what ends alone."""
-    from scipy.spatial import cKDTree
-
     edge = contour(ink)
     free = [place for node, place in graph.nodes.items() if graph.degree(node) == 1]
-    if not free or not len(edge):
-        return edge
-    return edge[~np.isfinite(cKDTree(free).query(edge, distance_upper_bound=_CAP * width_px)[0])]
+    return edge[~near(edge, np.array(free), _CAP * width_px)] if free and len(edge) else edge
 
 
 def _doubtful(
@@ -126,13 +122,13 @@ def _doubtful(
     if not nodes or not len(edge):
         return []
     places = np.array([graph.nodes[node] for node in nodes])
-    near = edge[np.isfinite(cKDTree(places).query(edge, distance_upper_bound=_AROUND * width_px)[0])]
-    if not len(near):
+    beside = edge[near(edge, places, _AROUND * width_px)]
+    if not len(beside):
         return []
-    missed = _missed(near, drawn.values(), width_px)
+    missed = _missed(beside, drawn.values(), width_px)
     most = max(_OFF, _unevenness(lines, width_px))
     found = []
-    for node, around in zip(nodes, cKDTree(near).query_ball_point(places, _AROUND * width_px), strict=True):
+    for node, around in zip(nodes, cKDTree(beside).query_ball_point(places, _AROUND * width_px), strict=True):
         if len(around) >= _FEWEST and (bad := rms(missed[around])) > most:
             found.append((-bad, node))
     return [node for _, node in sorted(found)]

@@ -115,7 +115,7 @@ class Web:
     def settled(self, edge: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The joints (n, 2) and bends (m, 2), between and outward, with which edges (k, 2) fit best.
 
-        The method is that of Levenberg and Marquardt; what is off by much counts as its root does.
+        By trust regions (scipy's); what is off by much counts as itself, not as its square.
         """
         from scipy.optimize import least_squares
 
