@@ -22,7 +22,7 @@ _SLACK_PX = 0.5
 _STEP = 0.4
 # How far does a mitre reach at most? That of 10 degrees reaches 5.7.
 _MITRE = 6.0
-# When was something misread? Where so many square widths differ in one place. Of 804 icons that is told of 29
+# When was something misread? Where so many square widths differ in one place. Of 804 icons that is told of 33
 # of about 180 that are read otherwise than drawn, and of one of the others (a tip that is half a width off).
 _MISREAD = 0.15
 # How near to a line is what was misread there? And to a gap that was closed, which is told already?
